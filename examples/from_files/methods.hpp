@@ -51,7 +51,7 @@ inline constexpr std::array methods{
     on_dual("kprgp", "Active sets: CG on a face, gradient projections to change it.",
             [](auto const& qp) { return slant::kprgp{qp}; }),
     on_dual("as", "kprgp by the name that it has on half lines and intervals.",
-            [](auto const& qp) { return slant::as(qp); }),
+            [](auto const& qp) { return slant::kprgp{qp}; }),
     on_dual("as_s", "kprgp with the active sets of semismooth Newton.",
             [](auto const& qp) { return slant::as_s(qp); }),
     on_dual("qpq", "Active sets by the discontinuous test that came before kprgp.",

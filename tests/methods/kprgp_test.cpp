@@ -277,7 +277,7 @@ TEST_CASE("AS-S: the decrease of q of Theorem 1, discs and intervals") {
       slant::kprgp_options<double> const o{.proportioning = Γ, .step_length = α};
       CHECK(check_decrease(slant::as_s(qp, o), M, p.b, p.zero(), solution.x, η) > 5);
       CHECK(check_decrease(slant::as_s(plane, o), M, p.b, p.zero(), corner, η) > 1);
-      CHECK(check_decrease(slant::as(plane, o), M, p.b, p.zero(), corner, η) > 1);
+      CHECK(check_decrease(slant::kprgp{plane, o}, M, p.b, p.zero(), corner, η) > 1);
     }
   }
 }
@@ -295,7 +295,7 @@ TEST_CASE("a block on its boundary that the gradient pulls inside is free for AS
     return s.last_step;
   };
   CHECK(first_step(slant::as_s(qp)) == slant::kprgp_step::conjugate_gradient);
-  CHECK(first_step(slant::as(qp)) == slant::kprgp_step::proportioning);
+  CHECK(first_step(slant::kprgp{qp}) == slant::kprgp_step::proportioning);
 }
 
 TEST_CASE("blocks are released only from (nearly) the minimum on the face") {

@@ -271,7 +271,7 @@ TEST_CASE("plane friction: all reach the independent reference, with few product
   check("imssn", slant::imssn{qp}, 100);
   check("gimssn", slant::gimssn{qp}, 120);
   check("as_s", slant::as_s(qp), 65);
-  check("as", slant::as(qp), 55);
+  check("as", slant::kprgp{qp}, 55);
   check("qpq", slant::qpq{qp}, 55);
 }
 
@@ -293,7 +293,7 @@ TEST_CASE("steps beyond 2/σ_max: AS oscillates, AS-S and IMSSN converge") {
     auto const i = slant::solve(slant::imssn{qp, {.step_length = α}}, dual.zero(), stop);
     CHECK(i.converged());
     CHECK((i.x() - stable.x()).norm() <= 1e-4 * i.x().norm());
-    CHECK_FALSE(slant::solve(slant::as(qp, {.step_length = α}), dual.zero(), stop).converged());
+    CHECK_FALSE(slant::solve(slant::kprgp{qp, {.step_length = α}}, dual.zero(), stop).converged());
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/newton/forcing.hpp>
-#include <slant/newton/globalisation.hpp>
+#include <slant/newton/semismooth_newton.hpp>
 #include <slant/testing/archetypes.hpp>
 
 #include <support/testing.hpp>

@@ -94,14 +94,13 @@ TEST_CASE("√|y| sign y is not slantly differentiable: Newton goes to and fro, 
   auto const F = equation([](double y) { return std::copysign(std::sqrt(std::abs(y)), y); },
                           [](double y) { return 0.5 / std::sqrt(std::abs(y)); });
   auto const r = slant::solve(
-      slant::semismooth_newton{
-          F, slant::by_laws{}, slant::full_step{}, slant::fixed_forcing{}, {.patience = 20}},
+      slant::semismooth_newton{F, slant::by_laws{}, slant::full_step{}, slant::fixed_forcing{}},
       number(0.25), slant::residual_below(1e-10) || slant::at_most(1000));
   CHECK(r.status == slant::status::stalled);
   CHECK(r.state.failure == slant::newton_failure::no_progress);
   CHECK(r.reason == "the residual has not fallen for many steps");
   CHECK(std::abs(r.x()[0]) == 0.25);
-  CHECK(r.iterations() == 22);  // the first value, then 20 that are no smaller, and one more
+  CHECK(r.iterations() == 102);  // the first value, then 100 that are no smaller, and one more
 }
 
 TEST_CASE("a singular F° is a breakdown with a reason, whatever the solver") {
@@ -234,14 +233,6 @@ TEST_CASE("bad input is named") {
   CHECK_THROWS_AS((slant::semismooth_newton{F, slant::by_laws{}, slant::full_step{},
                                             slant::fixed_forcing{.tolerance = 2}}),
                   slant::bad_input);
-  CHECK_THROWS_AS(
-      (slant::semismooth_newton{
-          F, slant::by_laws{}, slant::full_step{}, slant::fixed_forcing{}, {.patience = -1}}),
-      slant::bad_input);
-  CHECK_THROWS_AS(
-      (slant::semismooth_newton{
-          F, slant::by_laws{}, slant::full_step{}, slant::fixed_forcing{}, {.patience = -1}}),
-      slant::bad_input);
 }
 
 TEST_CASE("a function, its operator and a vector that can do the least") {

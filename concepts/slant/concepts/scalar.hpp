@@ -124,6 +124,17 @@ template <class S>
   return S(x - x) == S(0);
 }
 
+/// The distance from 1 to the next number.
+template <class S>
+[[nodiscard]] constexpr S epsilon() {
+  return std::numeric_limits<S>::epsilon();
+}
+
+template <class S>
+[[nodiscard]] constexpr S infinity() {
+  return std::numeric_limits<S>::infinity();
+}
+
 /// e with 2^(e-1) <= |v| < 2^e for finite v != 0, and 0 for v = 0.
 template <class S>
 [[nodiscard]] int binary_exponent(S const& v) {

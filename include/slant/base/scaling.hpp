@@ -34,11 +34,6 @@ template <class S>
   return std::numeric_limits<S>::quiet_NaN();
 }
 
-template <class S>
-[[nodiscard]] S infinity() {
-  return std::numeric_limits<S>::infinity();
-}
-
 /// Relative width of the band around a boundary within which a point counts as being on it. A
 /// computed projection is off the boundary by at most four ulp (see the sets); twice that leaves
 /// room for the roundings of the membership test itself.

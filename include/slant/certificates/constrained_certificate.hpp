@@ -61,12 +61,6 @@ class constrained_certificate {
         load_(detail::projected_load(qp, constraints).projected),
         hessian_(projected_hessian(qp.a(), constraints)),
         x_(qp.b()),
-        offset_(qp.b()),
-        point_(qp.b()),
-        gradient_(qp.b()),
-        stiffness_(qp.b()),
-        image_(qp.b()),
-        image_of_nearest_(qp.b()),
         a_workspace_(workspace(qp.a(), qp.b())),
         workspace_(workspace(hessian_, qp.b())),
         of_Q_(workspace(constraints.range_projector(), qp.b())),
@@ -175,7 +169,8 @@ class constrained_certificate {
   index applications_ = 0;
   vector_type load_;  // P (b − A x̄)
   hessian_type hessian_;
-  vector_type x_, offset_, point_, gradient_, stiffness_, image_, image_of_nearest_;
+  vector_type x_, offset_ = x_, point_ = x_, gradient_ = x_, stiffness_ = x_, image_ = x_,
+                  image_of_nearest_ = x_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
   workspace_t<hessian_type, vector_type> workspace_;
   workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> of_Q_;
@@ -185,10 +180,5 @@ class constrained_certificate {
   newton_estimate<projected_qp, preconditioner_type, cut_face<scalar>> newton_;
   scalar typical_{1};  // 1/mean(diag P A P)
 };
-
-template <class QP, class C>
-constrained_certificate(QP const&, C const&) -> constrained_certificate<QP, C, identity_operator>;
-template <class QP, class C, class M>
-constrained_certificate(QP const&, C const&, M const&) -> constrained_certificate<QP, C, M>;
 
 }  // namespace slant

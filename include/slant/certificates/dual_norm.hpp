@@ -26,7 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace slant {
@@ -34,11 +33,11 @@ namespace slant {
 /// Temporaries of dual_norm for vectors like `prototype` and a preconditioner m.
 template <class V, class M>
 struct dual_norm_workspace {
-  V r, z, p, image;
+  V r, z = r, p = r, image = r;
   workspace_t<M, V> of_m;
 
   dual_norm_workspace(M const& m, V const& prototype)
-      : r(prototype), z(prototype), p(prototype), image(prototype), of_m(workspace(m, prototype)) {}
+      : r(prototype), of_m(workspace(m, prototype)) {}
 };
 
 /// Result of dual_norm.
@@ -64,7 +63,7 @@ template <class A, class M, class V, class WA>
     -> dual_norm_result<scalar_t<V>> {
   using S = scalar_t<V>;
   using std::sqrt;
-  S const ε = std::numeric_limits<S>::epsilon();
+  S const ε = detail::epsilon<S>();
   S const room = S(4) * sqrt(S(slant::global_size(d)));
   S const unit = unit_near(slant::norm(d));
   vectors::scale(scalar_t<V>(1) / unit, d, w.r);
@@ -92,7 +91,7 @@ template <class A, class M, class V, class WA>
     }
     if (!(quotient > flat)) {
       if (noise >= S(0)) return {unit * sqrt(without_noise), k};
-      return {is_rounding() ? S(unit * sqrt(energy)) : std::numeric_limits<S>::infinity(), k};
+      return {is_rounding() ? S(unit * sqrt(energy)) : detail::infinity<S>(), k};
     }
     S const α = rz / bend, term = α * rz;
     energy += term;
@@ -115,7 +114,7 @@ template <class A, class M, class V, class WA>
   // M vanishes along what is left of d, or is not semidefinite, or d is not finite: nothing is
   // known of it.
   if (!(rz > S(0)) && !(slant::norm(w.r) == S(0)) && !is_rounding())
-    return {std::numeric_limits<S>::infinity(), k};
+    return {detail::infinity<S>(), k};
   S const rest = noise >= S(0) ? S(0) : dominates ? rz : recent;
   return {unit * (sqrt(energy) + (rest > S(0) ? S(sqrt(rest)) : S(0))), k};
 }
@@ -123,8 +122,6 @@ template <class A, class M, class V, class WA>
 }  // namespace slant
 
 namespace slant::detail {
-
-// --- sizes ---------------------------------------------------------------------------------------
 
 /// √(xᵀy) for a product that is ≥ 0 but for rounding.
 template <class V>
@@ -148,7 +145,7 @@ template <class V>
     sum += entry * entry / slant::local(stiffness).coeff(i);
   }
   using std::sqrt;
-  return S(unit * (std::numeric_limits<S>::epsilon() / S(2)) * S(sqrt(sum)));
+  return S(unit * (detail::epsilon<S>() / S(2)) * S(sqrt(sum)));
 }
 
 /// 1/diag A if A gives it or, with `probe`, has no more than 64 rows, else `typical`, the size of

@@ -101,14 +101,15 @@ class energy_certificate {
         m_(m),
         dominates_(dominates),
         most_(qp.size() < 200 ? qp.size() + 8 : index(200)),
-        x_(like(qp.b(), qp.size())),
-        g_(like(qp.b(), qp.size())),
-        stiffness_(like(qp.b(), qp.size())),
         a_workspace_(workspace(qp.a(), qp.b())),
         norm_(preconditioner(), qp.b()),
         newton_(qp, preconditioner()) {
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
-    set_stiffness();
+    auto const mean = mean_diagonal(qp.a(), qp.b());
+    typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
+    applications_ += mean.applications;
+    applications_ +=
+        detail::set_stiffness<is_plain>(qp.a(), typical_, stiffness_, x_, g_, a_workspace_);
   }
 
   static constexpr bool is_plain = std::same_as<M, identity_operator>;
@@ -159,32 +160,16 @@ class energy_certificate {
     return error_bound_of_root<scalar>(norm_of(g_), balanced.root_of_gap);
   }
 
-  /// 1/diag A if A gives it, else the size of A⁻¹ that mean(diag A) or M says.
-  void set_stiffness() {
-    auto const mean = mean_diagonal(qp_->a(), qp_->b());
-    applications_ += mean.applications;
-    typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    applications_ +=
-        detail::set_stiffness<is_plain>(qp_->a(), typical_, stiffness_, x_, g_, a_workspace_);
-  }
-
   QP const* qp_;
   M m_;
   bool dominates_;
   index most_;
   index applications_ = 0;
-  vector_type x_, g_, stiffness_;
+  vector_type x_ = qp_->b(), g_ = x_, stiffness_ = x_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
   dual_norm_workspace<vector_type, preconditioner_type> norm_;
   newton_type newton_;
   scalar typical_{1};  ///< 1/mean(diag A)
 };
-
-template <class QP>
-energy_certificate(QP const&) -> energy_certificate<QP, identity_operator>;
-template <class QP, class M>
-energy_certificate(QP const&, M const&) -> energy_certificate<QP, M>;
-template <class QP, class M>
-energy_certificate(QP const&, dominating_inverse<M>) -> energy_certificate<QP, M>;
 
 }  // namespace slant

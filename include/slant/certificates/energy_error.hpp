@@ -45,7 +45,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -117,7 +116,7 @@ template <class S, int N>
 [[nodiscard]] bool is_on_sphere(Eigen::Matrix<S, N, 1> const& x, S const& R) {
   using std::abs;
   Eigen::Matrix<S, N, 1> const e = x / R;
-  return abs(S(e.stableNorm()) - S(1)) <= S(9) * std::numeric_limits<S>::epsilon();
+  return abs(S(e.stableNorm()) - S(1)) <= S(9) * detail::epsilon<S>();
 }
 
 /// g on the ball ‖x‖ ≤ R.
@@ -153,12 +152,12 @@ template <class S, int N>
   if (!(t > S(0))) return part;
   point const direction = z / size;  // −s = (R/ρ) t direction
   part.rest = (R / ρ) * (h + t * direction);
-  S const off = length - S(1), rounding = S(2) * std::numeric_limits<S>::epsilon();
+  S const off = length - S(1), rounding = S(2) * detail::epsilon<S>();
   if (on_sphere && abs(off) > rounding) part.rest += (R / ρ) * (off / S(2)) * n;
   // γ = (R²/ρ) t (1 − nᵀz/‖z‖); on the sphere the bracket is sin²/(1 + cos) of the angle, which
   // comes from the tangential part of h.
   S const cosine = n.dot(direction);
-  S const eps = std::numeric_limits<S>::epsilon();
+  S const eps = detail::epsilon<S>();
   S bracket = S(1) - cosine + S(8) * eps;
   if (on_sphere && cosine > S(0)) {
     S const sine = ((h - n.dot(h) * n).stableNorm() + S(16) * eps * h.stableNorm()) / size;
@@ -211,11 +210,11 @@ template <class Block, class S, int N>
     if (R == S(0)) return S(0);
     Eigen::Matrix<S, N, 1> const sn = v / R, off = x / length - sn;
     S const s = sn.stableNorm(), missing = (S(1) - s) * (S(1) + s);
-    S const rounding = S(8) * std::numeric_limits<S>::epsilon();
+    S const rounding = S(8) * detail::epsilon<S>();
     return R * length * (off.squaredNorm() + (missing > rounding ? missing : S(0))) / S(2);
   } else {
     S const value = block.support(x);
-    S const noise = S(32) * std::numeric_limits<S>::epsilon() * x.stableNorm() * v.stableNorm();
+    S const noise = S(32) * detail::epsilon<S>() * x.stableNorm() * v.stableNorm();
     S const gap = value - v.dot(x);
     return gap > noise || !is_finite(gap) ? gap : S(0);
   }
@@ -245,7 +244,7 @@ template <function_part Block, class S, int N>
   S const at_x = block.value(x), at_p = block.value(p);
   // φ*(v) = vᵀp − φ(p).
   S const gap = at_x - at_p - v.dot(x - p);
-  S const noise = S(32) * std::numeric_limits<S>::epsilon() *
+  S const noise = S(32) * detail::epsilon<S>() *
                   (abs(at_x) + abs(at_p) + v.stableNorm() * (x.stableNorm() + p.stableNorm()));
   return {(x - p) / ρ, gap > noise || !detail::is_finite(gap) ? gap : S(0)};
 }
@@ -262,8 +261,7 @@ template <class Block, class S, int N>
   } else if constexpr (requires { block.lower(), block.upper(); }) {
     return detail::between_bounds<S>(x(0), g(0), block.lower(), block.upper(), ρ);
   } else if constexpr (std::same_as<Block, half_line<S>>) {
-    return detail::between_bounds<S>(x(0), g(0), block.lower(), std::numeric_limits<S>::infinity(),
-                                     ρ);
+    return detail::between_bounds<S>(x(0), g(0), block.lower(), detail::infinity<S>(), ρ);
   } else if constexpr (std::same_as<Block, ball<N, S>> && N == 1) {
     return detail::between_bounds<S>(x(0), g(0), -block.radius(), block.radius(), ρ);
   } else if constexpr (std::same_as<Block, ball<N, S>>) {
@@ -274,19 +272,17 @@ template <class Block, class S, int N>
     Eigen::Matrix<S, N, 1> const p = slant::project(block, z);
     Eigen::Matrix<S, N, 1> const s = (p - z) / ρ;
     // What rounding leaves of x − p where both are the same point of the boundary is no gap.
-    S const noise = S(32) * std::numeric_limits<S>::epsilon() * s.stableNorm() *
-                    (x.stableNorm() + p.stableNorm());
+    S const noise =
+        S(32) * detail::epsilon<S>() * s.stableNorm() * (x.stableNorm() + p.stableNorm());
     S const gap = s.dot(x - p);
     return {(x - p) / ρ, gap > noise ? gap : S(0)};
   }
 }
 
-// --- energy error --------------------------------------------------------------------------------
-
 /// What is known of ‖x − x*‖_A.
 template <class S>
 struct energy_error {
-  S bound = std::numeric_limits<S>::infinity();  ///< of ‖x − x*‖_A
+  S bound = detail::infinity<S>();  ///< of ‖x − x*‖_A
   S size{0};            ///< ‖x‖_A, what the error is relative to up to the error itself
   bool proven = false;  ///< a bound in floating point; else an estimate
 
@@ -297,7 +293,7 @@ struct energy_error {
   [[nodiscard]] S relative() const {
     if (bound == S(0)) return S(0);
     S const least = proven ? S(size - bound) : S(size - S(2) * bound);
-    return least > S(0) ? S(bound / least) : std::numeric_limits<S>::infinity();
+    return least > S(0) ? S(bound / least) : detail::infinity<S>();
   }
   /// "relative energy error 3e-10, proven"; where that is infinite, as where x* = 0, with both sizes.
   [[nodiscard, gnu::cold]] std::string sentence() const {
@@ -329,7 +325,7 @@ template <class S>
 template <class S>
 [[nodiscard]] S error_bound_of_root(S const& δ, S const& root_of_gap) {
   return (δ + detail::root_of_squares<S>(δ, S(2) * root_of_gap)) / S(2) *
-         (S(1) + S(8) * std::numeric_limits<S>::epsilon());
+         (S(1) + S(8) * detail::epsilon<S>());
 }
 
 /// d = g − s for all blocks of Λ at x, with the root of the sum of the gaps; m holds the stiffness
@@ -382,7 +378,7 @@ template <class C, class X, class G, class M, class D>
       if constexpr (!has_exact_normal_part<block_type>) result.exact = false;
     }
   });
-  S const ε = std::numeric_limits<S>::epsilon();
+  S const ε = detail::epsilon<S>();
   result.root_of_gap = sqrt(gaps) * sqrt(unit) * (S(1) + S(terms + 64) * ε);
   return result;
 }

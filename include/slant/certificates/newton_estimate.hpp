@@ -33,7 +33,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -60,23 +59,15 @@ class face_correction {
   using scalar = scalar_t<V>;
 
   V t;                 ///< the step
-  V image;             ///< A t
-  V remainder;         ///< Π g + H t
+  V image = t;         ///< A t
+  V remainder = t;     ///< Π g + H t
   scalar energy{0};    ///< ‖t‖_A
   scalar bend{0};      ///< ‖t‖_{C/ρ}, from the curvature of the blocks
   scalar missing{0};   ///< estimate of the energy norm that more iterations would add to t
   bool found = false;  ///< false: along what is left of g the face has no curvature, or M vanishes
 
   face_correction(V const& prototype, M const& m)
-      : t(prototype),
-        image(prototype),
-        remainder(prototype),
-        r_(prototype),
-        p_(prototype),
-        Ap_(prototype),
-        z_(prototype),
-        weighed_(prototype),
-        m_workspace_(workspace(m, prototype)) {}
+      : t(prototype), m_workspace_(workspace(m, prototype)) {}
 
   /// The step for the gradient g in at most `most` iterations; returns how many. 1/ρ ≈ ‖A‖ up to a
   /// factor, s = mean(diag M). `sizes`, for a semidefinite A, as in dual_norm.
@@ -84,7 +75,7 @@ class face_correction {
   index compute(A const& a, WA& of_a, M const& m, V const& g, Face const& face, scalar const& ρ,
                 scalar const& s, index most, std::optional<gradient_size<scalar>> const& sizes) {
     using std::sqrt;
-    scalar const ε = std::numeric_limits<scalar>::epsilon();
+    scalar const ε = detail::epsilon<scalar>();
     scalar const room = scalar(4) * sqrt(scalar(slant::global_size(g)));
     vectors::set_zero(t);
     vectors::set_zero(image);
@@ -177,11 +168,9 @@ class face_correction {
   }
 
  private:
-  V r_, p_, Ap_, z_, weighed_;
+  V r_ = t, p_ = t, Ap_ = t, z_ = t, weighed_ = t;
   workspace_t<M, V> m_workspace_;
 };
-
-// --- newton estimate -----------------------------------------------------------------------------
 
 /// Where x is, and what the estimate may use.
 template <class V>
@@ -212,16 +201,7 @@ class newton_estimate {
   using scalar = typename QP::scalar;
 
   newton_estimate(QP const& qp, M const& m, Face face)
-      : qp_(&qp),
-        face_(std::move(face)),
-        correction_(qp.b(), m),
-        projected_(qp.b()),
-        step_(qp.b()),
-        image_(qp.b()),
-        balanced_(qp.b()),
-        rest_(qp.b()),
-        trial_(qp.b()),
-        weight_(qp.b()) {}
+      : qp_(&qp), face_(std::move(face)), correction_(qp.b(), m) {}
   newton_estimate(QP const& qp, M const& m) : newton_estimate(qp, m, Face(function_of(qp))) {}
 
   /// Infinite where nothing is known: A shows no curvature along the gradient on the face, or no
@@ -245,7 +225,7 @@ class newton_estimate {
       vectors::sum(*at.offset, step_, trial_);
       face_.lift(trial_, lift_);
       vectors::subtract(lift_, trial_);
-      if (!face_.meets(trial_, at.size_of_offset)) return std::numeric_limits<scalar>::infinity();
+      if (!face_.meets(trial_, at.size_of_offset)) return detail::infinity<scalar>();
       vectors::negate(lift_, lift_);
       apply(lift_, image_of_lift_, of_a);
       vectors::add(image_of_lift_, rest_);
@@ -254,7 +234,7 @@ class newton_estimate {
     applications_ +=
         correction_.compute(qp_->a(), of_a, m, rest_, face_, at.ρ, at.ρ, at.most, at.sizes);
     if (!correction_.found || !detail::is_finite(correction_.energy)) {
-      return std::numeric_limits<scalar>::infinity();
+      return detail::infinity<scalar>();
     }
     if constexpr (is_cut) correction_.precede(lift_, image_of_lift_, whole_face(face_), at.ρ);
     if (!at.trusts_iterations) {
@@ -318,7 +298,7 @@ class newton_estimate {
   /// How a bound is put together: δ = √(moved² + missing²) + ‖rest‖_{A⁻¹}, γ, and what comes on
   /// top.
   struct bound_split {
-    scalar bound = std::numeric_limits<scalar>::infinity();
+    scalar bound = detail::infinity<scalar>();
     scalar moved{0}, root_of_gap{0}, above{0};
   };
   /// Splits the gradient at the end of the step into a part that Λ balances at x and a rest, what is
@@ -348,7 +328,8 @@ class newton_estimate {
   index applications_ = 0;
   Face face_;
   face_correction<vector_type, M> correction_;
-  vector_type projected_, step_, image_, balanced_, rest_, trial_, weight_;
+  vector_type projected_ = qp_->b(), step_ = projected_, image_ = projected_,
+              balanced_ = projected_, rest_ = projected_, trial_ = projected_, weight_ = projected_;
   vector_type lift_ = like(balanced_, is_cut ? slant::local(balanced_).size() : 0);
   vector_type image_of_lift_ = lift_;
 };

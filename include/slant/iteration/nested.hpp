@@ -77,14 +77,6 @@ struct nested_report {
 
 namespace detail {
 
-/// P x as a new vector.
-template <class P, class V>
-[[nodiscard]] V prolonged(P const& prolongation, V const& x) {
-  V y = slant::like(x, index(prolongation.rows()));
-  slant::apply(prolongation, x, y);
-  return y;
-}
-
 /// What solve_nested returns after a static_assert; nothing of it is defined.
 template <class V>
 struct refused_nested_report : refused_report<V> {
@@ -125,7 +117,9 @@ template <class Levels, class V, class... Observers>
     }
     V const& coarse = result.levels.back().state.x;
     if (!detail::is_finite(norm(coarse))) break;
-    V const start = detail::prolonged(level.prolongation(), coarse);
+    auto const& P = level.prolongation();
+    V start = slant::like(coarse, index(P.rows()));
+    slant::apply(P, coarse, start);
     result.levels.push_back(slant::solve(level.method(), start, level.stop(), observers...));
   }
   if (result.levels.empty()) throw bad_input("levels", "none", "at least one level");

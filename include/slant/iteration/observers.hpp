@@ -146,7 +146,7 @@ class step_table {
     char const* const format = options_.csv ? "%.17g" : "%.2e";
     return {text.data(), written(std::snprintf(text.data(), text.size(), format, x))};
   }
-  static std::size_t written(int length) { return static_cast<std::size_t>(length); }
+  static std::size_t written(int length) { return std::size_t(length); }
 
   options options_;
   bool has_head_ = false;
@@ -203,7 +203,7 @@ class progress_bar {
     }
     best_ = done > best_ ? done : best_;
     auto const filled = static_cast<int>(best_ * width);
-    std::string bar(static_cast<std::size_t>(filled), '#');
+    std::string bar(std::size_t(filled), '#');
     bar.resize(width, '.');
     std::fprintf(options_.stream, "\r%s [%s] step %6td  relative residual %.1e ", title_.c_str(),
                  bar.c_str(), step, error);

@@ -49,10 +49,6 @@ struct refused_report {
   bool converged() const;
 };
 
-}  // namespace detail
-
-namespace detail {
-
 /// How a run ended, and the same as a sentence.
 struct ending {
   status how;
@@ -168,13 +164,7 @@ struct sequel_report {
     requires requires(First const& f, Second const& s) { f.work, s.work; }
   {
     slant::work sum = first.state.work;
-    if (second) {
-      auto const& more = second->state.work;
-      sum.operator_applications += more.operator_applications;
-      sum.setup_applications += more.setup_applications;
-      sum.inner_iterations += more.inner_iterations;
-      sum.factorizations += more.factorizations;
-    }
+    if (second) sum += second->state.work;
     return sum;
   }
 };

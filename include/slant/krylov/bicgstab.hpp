@@ -22,7 +22,6 @@
 #include <slant/krylov/linear_system.hpp>
 #include <slant/operators/identity.hpp>
 
-#include <limits>
 #include <type_traits>
 
 namespace slant {
@@ -30,13 +29,13 @@ namespace slant {
 /// State of bicgstab.
 template <class V, class WA, class WM>
 struct bicgstab_state : detail::residual_state<V> {
-  V shadow;                      ///< r̂
-  V p, v, t;                     ///< direction, A M p, A M s
-  V preconditioned;              ///< M p or M s
-  WA a_workspace;                ///< temporaries of A
-  WM m_workspace;                ///< temporaries of M
-  scalar_t<V> ρ{1}, α{1}, ω{1};  ///< the recurrence's coefficients
-  bool restarted = true;         ///< p starts anew from r
+  WA a_workspace;                           ///< temporaries of A
+  WM m_workspace;                           ///< temporaries of M
+  V shadow = this->r;                       ///< r̂
+  V p = this->r, v = this->r, t = this->r;  ///< direction, A M p, A M s
+  V preconditioned = this->r;               ///< M p or M s
+  scalar_t<V> ρ{1}, α{1}, ω{1};             ///< the recurrence's coefficients
+  bool restarted = true;                    ///< p starts anew from r
 };
 
 /// Arguments that lack something end here and are told so; see base/diagnosis.hpp.
@@ -74,15 +73,7 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
   /// Throws bad_input if x0 or A x0 is not finite or of the wrong size.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start(x0, this->b());
-    auto blank = [&] { return like(x0, this->a().rows()); };
-    state_type s{{x0},
-                 blank(),
-                 blank(),
-                 blank(),
-                 blank(),
-                 blank(),
-                 workspace(this->a(), x0),
-                 workspace(this->m(), x0)};
+    state_type s{{x0}, workspace(this->a(), x0), workspace(this->m(), x0)};
     detail::start_residual(this->a(), this->b(), s);
     return s;
   }
@@ -96,7 +87,7 @@ class bicgstab<A, V, M> : public detail::preconditioned_system<A, V, M> {
 
   void step(state_type& s) const {
     if (s.status != status::running) return;
-    auto const ε = std::numeric_limits<scalar>::epsilon();
+    auto const ε = detail::epsilon<scalar>();
     if (!s.restarted) {
       scalar const ρ = inner_product(s.shadow, s.r);
       // ρ at rounding level says nothing about the residual: start anew instead of dividing by it.

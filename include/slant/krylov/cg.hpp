@@ -28,10 +28,10 @@ namespace slant {
 /// State of cg.
 template <class V, class WA, class WM>
 struct cg_state : detail::residual_state<V> {
-  V z;                                 ///< preconditioned residual M r
-  conjugate_directions<V> directions;  ///< p, Ap, pᵀAp
-  WA a_workspace;                      ///< temporaries of A
-  WM m_workspace;                      ///< temporaries of M
+  WA a_workspace;                               ///< temporaries of A
+  WM m_workspace;                               ///< temporaries of M
+  V z = this->r;                                ///< preconditioned residual M r
+  conjugate_directions<V> directions{this->r};  ///< p, Ap, pᵀAp
 
   /// Why the method has ended the run.
   [[nodiscard]] std::string reason() const {
@@ -78,12 +78,7 @@ class cg<A, V, M> : public detail::preconditioned_system<A, V, M> {
   /// Throws bad_input if x0 or A x0 is not finite or of the wrong size.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start(x0, this->b());
-    auto const n = this->a().rows();
-    state_type s{{x0},
-                 like(x0, n),
-                 conjugate_directions<vector_type>(x0),
-                 workspace(this->a(), x0),
-                 workspace(this->m(), x0)};
+    state_type s{{x0}, workspace(this->a(), x0), workspace(this->m(), x0)};
     detail::start_residual(this->a(), this->b(), s);
     return s;
   }

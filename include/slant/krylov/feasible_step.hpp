@@ -15,7 +15,6 @@
 #include <slant/concepts/vector.hpp>
 #include <slant/sets/blocks.hpp>
 
-#include <limits>
 #include <utility>
 
 namespace slant {
@@ -65,7 +64,7 @@ template <class Set, class State, class S>
   }
   vectors::negate(d.p, s.trial);
   step.length = slant::minimum(s.x, set.step_to_boundary(slant::local(s.x), slant::local(s.trial)));
-  bool const ends = step.length < std::numeric_limits<S>::infinity();
+  bool const ends = step.length < detail::infinity<S>();
   step.end = ends ? feasible_step_end::boundary : feasible_step_end::endless;
   return step;
 }

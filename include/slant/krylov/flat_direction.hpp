@@ -24,14 +24,13 @@
 #include <slant/krylov/spectrum.hpp>
 
 #include <cmath>
-#include <limits>
 
 namespace slant {
 
 /// Is slope = −rᵀd more than the noise of a consistent right-hand side of the size gradient_size?
 template <class V, class S>
 [[nodiscard]] bool is_descent(S slope, V const& d, S gradient_size) {
-  auto const noise = S(slant::global_size(d)) * std::numeric_limits<S>::epsilon();
+  auto const noise = S(slant::global_size(d)) * detail::epsilon<S>();
   return slope > noise * norm(d) * gradient_size;
 }
 
@@ -54,9 +53,6 @@ class flat_direction {
   template <class K>
   flat_direction(K const& k, V const& prototype, index& applications)
       : D_(like(prototype, slant::local(prototype).size())),
-        image_(D_),
-        q_(D_),
-        image_of_q_(D_),
         directions_(prototype),
         exact_(slant::diagonal_if_known(k, D_)) {
     if (exact_) {
@@ -71,12 +67,12 @@ class flat_direction {
   /// Is qᵀKq zero up to rounding?
   [[nodiscard]] bool is_flat(auto const& d) {
     using std::abs;
-    return abs(d.curvature) <= scalar(16) * std::numeric_limits<scalar>::epsilon() * size(d);
+    return abs(d.curvature) <= scalar(16) * detail::epsilon<scalar>() * size(d);
   }
   /// Is it so small that q may be near a direction of the kernel?
   [[nodiscard]] bool is_nearly_flat(auto const& d) {
     using std::sqrt;
-    return !(d.curvature > sqrt(std::numeric_limits<scalar>::epsilon()) * size(d));
+    return !(d.curvature > sqrt(detail::epsilon<scalar>()) * size(d));
   }
 
   /// ‖D x‖, the size of the forces of which K x is the sum; its rounding errors are ε times that.
@@ -100,7 +96,7 @@ class flat_direction {
     vectors::copy(d.Ap, image_of_q_);
     curvature_of_q_ = d.curvature;
     scalar const least = norm(d.q) / scalar(128);
-    scalar const enough = scalar(4) * std::numeric_limits<scalar>::epsilon() * force(d.q);
+    scalar const enough = scalar(4) * detail::epsilon<scalar>() * force(d.q);
     // δ to the precision of K q, then K q anew: where it has become smaller there are more digits.
     for (scalar before = norm(d.Ap);; before = norm(d.Ap)) {
       spent.projections += take_out(d, k, wk, c, wc, q, wq, steps, least, enough);
@@ -109,7 +105,7 @@ class flat_direction {
       if (passes == 3 || !(norm(d.Ap) > scalar(0) && norm(d.Ap) < before / scalar(2))) break;
     }
     d.curvature = inner_product(d.q, d.Ap);
-    scalar const noise = scalar(1024) * std::numeric_limits<scalar>::epsilon() * force(d.q);
+    scalar const noise = scalar(1024) * detail::epsilon<scalar>() * force(d.q);
     spent.found = norm(d.q) > least && is_flat(d) && norm(d.Ap) <= (exact_ ? noise : scalar(0));
     if (!spent.found) restore(d);
     return spent;
@@ -127,7 +123,7 @@ class flat_direction {
   [[nodiscard]] index take_out(Directions& d, K const& k, WK& wk, C const& c, WC& wc, Q const& q,
                                WQ& wq, index steps, scalar least, scalar enough) {
     index products = 0;
-    scalar last = std::numeric_limits<scalar>::infinity();
+    scalar last = detail::infinity<scalar>();
     directions_.live = false;
     while (products < steps && norm(d.q) > least) {
       slant::apply(c, d.Ap, image_, wc);
@@ -152,10 +148,10 @@ class flat_direction {
     return inner_product(image_, d.q);
   }
 
-  V D_;      // diag(K)
-  V image_;  // scratch
-  V q_;      // the direction before it was split
-  V image_of_q_;
+  V D_;           // diag(K)
+  V image_ = D_;  // scratch
+  V q_ = D_;      // the direction before it was split
+  V image_of_q_ = D_;
   projected_directions<V> directions_;
   bool exact_;
   scalar curvature_of_q_{0};

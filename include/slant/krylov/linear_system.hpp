@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -45,9 +44,8 @@ struct residual_state {
   scalar_t<V> unit{1};            ///< a power of two, see base/scaling.hpp
   scalar_t<V> residual_norm{0};   ///< of the residual
   scalar_t<V> residual_scale{0};  ///< ‖b‖, or ‖A x₀‖ if b = 0
-  scalar_t<V> computed_norm =
-      std::numeric_limits<scalar_t<V>>::infinity();  ///< at the last refresh
-  bool updated = false;                              ///< r was updated since it was computed from x
+  scalar_t<V> computed_norm = detail::infinity<scalar_t<V>>();  ///< at the last refresh
+  bool updated = false;  ///< r was updated since it was computed from x
   index iteration = 0;
   slant::status status = slant::status::running;
   slant::work work{};
@@ -101,7 +99,7 @@ template <class A, class V, class State>
 void restart_residual(A const& a, V const& b, State& s) {
   using S = scalar_t<V>;
   s.unit = S(1);
-  s.computed_norm = std::numeric_limits<S>::infinity();
+  s.computed_norm = detail::infinity<S>();
   s.updated = false;
   s.iteration = 0;
   s.status = slant::status::running;

@@ -28,7 +28,6 @@
 #include <slant/krylov/linear_system.hpp>
 
 #include <concepts>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -40,16 +39,16 @@ template <class V, class WK, class WC, class WQ, bool Definite>
 struct range_cg_state : detail::residual_state<V> {
   using flat_type = flat_direction<V, Definite>;
 
-  V z;                                 ///< C r
-  projected_directions<V> directions;  ///< p, q = Q p, K q, qᵀKq
-  V descent;                           ///< where j falls for ever, if the status is unbounded
-  WK a_workspace;                      ///< temporaries of K
-  WC c_workspace;                      ///< temporaries of C
-  WQ q_workspace;                      ///< temporaries of Q
-  flat_type flat;                      ///< tells directions of the kernel of K
-  bool regular = false;                ///< a kernel was looked for, and j does not fall in it
-  bool flat_ended = false;             ///< it stalled on a direction without curvature
-  index projector_applications = 0;    ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
+  WK a_workspace;                               ///< temporaries of K
+  WC c_workspace;                               ///< temporaries of C
+  WQ q_workspace;                               ///< temporaries of Q
+  flat_type flat;                               ///< tells directions of the kernel of K
+  V z = this->r;                                ///< C r
+  projected_directions<V> directions{this->r};  ///< p, q = Q p, K q, qᵀKq
+  V descent = this->r;               ///< where j falls for ever, if the status is unbounded
+  bool regular = false;              ///< a kernel was looked for, and j does not fall in it
+  bool flat_ended = false;           ///< it stalled on a direction without curvature
+  index projector_applications = 0;  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
 
   [[nodiscard, gnu::cold]] std::string reason() const {
     switch (this->status) {
@@ -138,14 +137,10 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
   /// in its range.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start(x0, this->b());
-    auto const n = index(slant::local(x0).size());
     slant::work spent{};
     flat_direction<vector_type, declares_positive_definite<operator_type>> flat(
         this->a(), x0, spent.setup_applications);
     state_type s{{x0},
-                 like(x0, n),
-                 projected_directions<vector_type>(x0),
-                 like(x0, n),
                  workspace(this->a(), x0),
                  workspace(this->m(), x0),
                  workspace(q_.get(), x0),
@@ -210,7 +205,7 @@ class range_cg<K, V, C, Q> : private detail::preconditioned_system<K, V, C> {
       vectors::difference(s.x, x0, s.descent);
       slant::apply(this->m(), s.descent, s.z, s.c_workspace);
       vectors::subtract(s.descent, s.z);
-      auto const ε = std::numeric_limits<scalar>::epsilon();
+      auto const ε = detail::epsilon<scalar>();
       scalar const size = norm(s.descent) + norm(s.x);
       vectors::set_zero(s.descent);
       using std::sqrt;

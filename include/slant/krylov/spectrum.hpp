@@ -34,7 +34,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <string>
 #include <vector>
 
 namespace slant::detail {
@@ -71,7 +71,7 @@ template <class S>
     upper = std::max<S>(upper, S(a[i] + radius));
     size = std::max<S>(size, S(abs(a[i]) + radius));
   }
-  S const resolution = std::numeric_limits<S>::epsilon() * size;
+  S const resolution = detail::epsilon<S>() * size;
   while (upper - lower > resolution) {
     S const middle = lower + (upper - lower) / S(2);
     if (!(lower < middle && middle < upper)) break;
@@ -134,10 +134,10 @@ template <class A, class V>
   vectors::set_zero(previous);
 
   std::vector<S> diagonal, off_diagonal;
-  auto const ε = std::numeric_limits<S>::epsilon();
+  auto const ε = detail::epsilon<S>();
   // ε ≤ 3/4 wants so many steps at least; with fewer the bound would be more than four times θ.
   double const doubt = std::log(1.648 * std::sqrt(double(n)) / options.failure);
-  auto const least = static_cast<index>(std::ceil((doubt / std::sqrt(0.75) + 1) / 2));
+  auto const least = index(std::ceil((doubt / std::sqrt(0.75) + 1) / 2));
   auto const steps = std::min(std::max(options.steps, least), n);
   S scale(0);
   bool exhausted = false;  // an invariant subspace was found: θ is exact
@@ -161,7 +161,7 @@ template <class A, class V>
     vectors::divide(β, q);
   }
   S const θ = detail::largest_tridiagonal_eigenvalue(diagonal, off_diagonal);
-  auto const k = static_cast<index>(diagonal.size());
+  auto const k = index(diagonal.size());
   S const rounding = S(1) + S(4 * n) * ε;
   if (θ < S(0)) throw bad_input("A", detail::show(θ), "a positive semidefinite operator");
   S const θ_min =
@@ -170,6 +170,18 @@ template <class A, class V>
   double const root = doubt / double(2 * k - 1);
   return {θ * rounding / S(1 - root * root), θ, θ_min, k};
 }
+
+namespace detail {
+
+/// Throws bad_input unless a step length, from `what` of A, is a finite number > 0.
+template <class S>
+void check_step_length(S const& length, char const* what, S const& of_a) {
+  if (length > S(0) && is_finite(length)) return;
+  throw bad_input("A", std::string(what) + " " + show(of_a),
+                  "one whose reciprocal is a finite number > 0");
+}
+
+}  // namespace detail
 
 // --- gradient step -------------------------------------------------------------------------------
 //
@@ -197,14 +209,9 @@ template <class A, class V>
   if (bound.upper == S(0)) return {S(1), S(0), bound.applications};
   S const best = S(2) / (S(1) + bound.smallest_ritz / bound.ritz);
   S const length = std::min<S>(factor, best) / bound.upper;
-  if (!(length > S(0)) || !detail::is_finite(length)) {
-    throw bad_input("A", "largest eigenvalue " + detail::show(bound.upper),
-                    "one whose reciprocal is a finite number > 0");
-  }
+  detail::check_step_length(length, "largest eigenvalue", bound.upper);
   return {length, bound.ritz, bound.applications};
 }
-
-// --- mean of the diagonal ------------------------------------------------------------------------
 
 /// Result of mean_diagonal.
 template <class S>
@@ -274,10 +281,7 @@ template <class A, class V>
   using S = scalar_t<V>;
   auto const mean = mean_diagonal(a, prototype, options);
   S const length = mean.value > S(0) ? S(factor / mean.value) : S(1);
-  if (!(length > S(0)) || !detail::is_finite(length)) {
-    throw bad_input("A", "mean of the diagonal " + detail::show(mean.value),
-                    "one whose reciprocal is a finite number > 0");
-  }
+  detail::check_step_length(length, "mean of the diagonal", mean.value);
   return {length, mean.applications};
 }
 

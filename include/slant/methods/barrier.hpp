@@ -43,8 +43,6 @@
 
 namespace slant {
 
-// --- barrier -------------------------------------------------------------------------------------
-
 /// The inequalities of a set with their derivatives at a point. Rows: one per inequality, in the
 /// order of the blocks.
 template <scalar S = double>
@@ -227,21 +225,15 @@ class barrier_minimum {
  public:
   using scalar = scalar_t<V>;
 
-  V t;                ///< the step
-  V image;            ///< A t
-  V direction;        ///< the last direction of the iteration
-  V direction_image;  ///< A times it
-  bool flat = false;  ///< it has no curvature
+  V t;                    ///< the step
+  V image = t;            ///< A t
+  V direction = t;        ///< the last direction of the iteration
+  V direction_image = t;  ///< A times it
+  bool flat = false;      ///< it has no curvature
 
   barrier_minimum(V const& prototype, index n, M const& m)
       : t(like(prototype, n)),
-        image(like(prototype, n)),
-        direction(like(prototype, n)),
-        direction_image(like(prototype, n)),
-        g_(like(prototype, n)),
-        z_(like(prototype, n)),
         near_(like(prototype, preconditioned ? n : 0)),
-        far_(like(prototype, preconditioned ? n : 0)),
         m_workspace_(workspace(m, prototype)) {
     forget();
   }
@@ -374,9 +366,9 @@ class barrier_minimum {
     vectors::axpy(θ, z_, g_);
   }
 
-  V g_;           // g₀ + J_SC t
-  V z_;           // preconditioned g, then J_SC p
-  V near_, far_;  // parts of the preconditioned g
+  V g_ = t;               // g₀ + J_SC t
+  V z_ = t;               // preconditioned g, then J_SC p
+  V near_, far_ = near_;  // parts of the preconditioned g
   workspace_t<M, V> m_workspace_;
   bool known_ = false;
 };

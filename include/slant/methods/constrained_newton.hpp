@@ -51,7 +51,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -59,42 +58,20 @@
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e: a problem for symmetric_newton, and rows.
 template <class QP, class C>
 concept constrained_newton_problem =
     symmetric_newton_problem<QP> && affine_space_with_rows<C, typename QP::vector_type>;
 
-// --- options -------------------------------------------------------------------------------------
-
-/// Options of constrained_newton; the defaults are those of benchmarks/total_feti.cpp.
-template <scalar S = double>
+/// Options of constrained_newton.
+template <class S = double>
 struct constrained_newton_options {
-  S step_factor = S(0.5);                 ///< α in multiples of 1/mean(diag P A P)
-  mean_diagonal_options mean_diagonal{};  ///< how that is estimated
-  /// Inner accuracy, relative to the merit function.
-  eisenstat_walker forcing{.γ = 0.9, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1};
   index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
-  S sufficient =
-      S(0.1);  ///< c in (0, 1): a step of length β lowers the merit by c β of it at least
-  index halvings = 20;           ///< β = 1, ½, …: so often at most
-  index patience = 100;          ///< steps in which the merit does not fall that mean stalled
-  smalse_options<S> fallback{};  ///< of the method that takes over where Newton's fails
 
   [[gnu::cold]] void validate() const {
-    detail::check_positive("step_factor", step_factor);
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
-    detail::check_fraction("sufficient", sufficient);
-    if (halvings < 0) throw bad_input("halvings", detail::show(halvings), "a number >= 0");
-    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-    mean_diagonal.validate();
-    forcing.validate();
-    fallback.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -119,19 +96,19 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
   using typename base::scalar;
   using typename base::vector_type;
 
-  vector_type ν;            ///< Gᵀμ, a gradient
-  vector_type projected_b;  ///< P (b − A x̄)
-  vector_type b;            ///< P (b − A x̄) − ν
-  vector_type offset;       ///< Q x − x̄
+  vector_type ν;                ///< Gᵀμ, a gradient
+  vector_type projected_b;      ///< P (b − A x̄)
+  vector_type b = projected_b;  ///< P (b − A x̄) − ν
+  vector_type offset = ν;       ///< Q x − x̄
 
   newton_segment<vector_type> segment;   ///< y, z of Newton's iterate; x = P_Λ(z) after a step
-  vector_type offset_y;                  ///< Q y − x̄
-  vector_type target_offset;             ///< the same at the end of the full step
+  vector_type offset_y = ν;              ///< Q y − x̄
+  vector_type target_offset = ν;         ///< the same at the end of the full step
   cut_face<scalar> face;                 ///< the face at z, cut by ker G
   curved_minimum<vector_type, M> inner;  ///< the step on it
-  vector_type lifted;                    ///< the part of the step that cures Q x − x̄
-  vector_type gradient_at_end;           ///< scratch: gradients of the quadratic model
-  vector_type dν;                        ///< step of ν, in units
+  vector_type lifted = ν;                ///< the part of the step that cures Q x − x̄
+  vector_type gradient_at_end = ν;       ///< scratch: gradients of the quadratic model
+  vector_type dν = ν;                    ///< step of ν, in units
   workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> q_workspace;
   forcing_history<scalar> forcing{};              ///< errors and inner tolerances so far
   progress_watch<scalar> progress{};              ///< looks for steps that get nowhere
@@ -139,7 +116,7 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
   bool fallback_at_work = false;
   scalar goal{0};            ///< what the fallback has to reach
   index fallback_count = 0;  ///< how often it had to take over
-  scalar penalty_factor{1};  ///< its penalty over the one of the options
+  scalar penalty_factor{1};  ///< its penalty over the usual one
 
   scalar merit{0};  ///< √(‖F‖² + ‖Q y − x̄‖²)/α, in units of the gradient
   scalar feasibility_norm{0};     ///< ‖Q x − x̄‖, distance of x from the affine space
@@ -160,16 +137,9 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
       : base(problem, x0),
         ν(like(x0, problem.size())),
         projected_b(load_vector),
-        b(load_vector),
-        offset(ν),
         segment(x0, problem.size()),
-        offset_y(ν),
-        target_offset(ν),
         face(problem.set(), c.unit_rows()),
         inner(x0, problem.size(), m),
-        lifted(ν),
-        gradient_at_end(ν),
-        dν(ν),
         q_workspace(workspace(c.range_projector(), x0)) {
     vectors::set_zero(ν);
   }
@@ -178,8 +148,6 @@ struct constrained_newton_state : gradient_point<detail::projected_qp<QP, C>> {
     return detail::reason_with_equalities(status, infeasible);
   }
 };
-
-// --- refusal -------------------------------------------------------------------------------------
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class C, class M>
@@ -205,8 +173,6 @@ template <class QP, class C, class M>
 constrained_newton(QP&&, C&&, M&&, constrained_newton_options<detail::program_scalar_t<QP>> = {})
     -> constrained_newton<kept_t<QP>, kept_t<C>, kept_t<M>>;
 
-// --- method --------------------------------------------------------------------------------------
-
 /// The method at the top of this file: solve(constrained_newton{qp, constraints}, x0,
 /// (reduced_gradient_below(1e-8) && feasibility_below(1e-8)) || at_most(100)); a preconditioner
 /// M ≈ A⁻¹ third, options last. Requires of the problem what symmetric_newton does, for Eigen
@@ -216,28 +182,24 @@ constrained_newton(QP&&, C&&, M&&, constrained_newton_options<detail::program_sc
 template <class QP, class C, class M>
   requires constrained_newton_problem<std::remove_cvref_t<QP>, std::remove_cvref_t<C>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
-class constrained_newton<QP, C, M> {
+class constrained_newton<QP, C, M>
+    : public detail::preconditioned_program<QP, M, constrained_newton_options> {
+  using base = detail::preconditioned_program<QP, M, constrained_newton_options>;
+  using base::qp_, base::m_, base::options_, base::preconditioned;
+
  public:
-  using problem = std::remove_cvref_t<QP>;
+  using typename base::problem, typename base::vector_type, typename base::scalar;
   using constraints = std::remove_cvref_t<C>;
-  using preconditioner = std::remove_cvref_t<M>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = constrained_newton_options<scalar>;
-  using state_type = constrained_newton_state<problem, constraints, preconditioner>;
-  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+  using state_type = constrained_newton_state<problem, constraints, typename base::preconditioner>;
 
   /// Throws bad_input if sizes do not match, or for options out of range.
-  constrained_newton(held<QP> qp, held<C> c, options o = {})
+  constrained_newton(held<QP> qp, held<C> c, typename base::options o = {})
     requires(!preconditioned)
-      : qp_(std::move(qp)),
-        constraints_(std::move(c)),
-        m_(identity_operator(qp_.get().size())),
-        options_(std::move(o)) {
+      : base(std::move(qp), std::move(o)), constraints_(std::move(c)) {
     check();
   }
-  constrained_newton(held<QP> qp, held<C> c, held<M> m, options o = {})
-      : qp_(std::move(qp)), constraints_(std::move(c)), m_(std::move(m)), options_(std::move(o)) {
+  constrained_newton(held<QP> qp, held<C> c, held<M> m, typename base::options o = {})
+      : base(std::move(qp), std::move(m), std::move(o)), constraints_(std::move(c)) {
     check();
   }
 
@@ -245,8 +207,7 @@ class constrained_newton<QP, C, M> {
   /// or A x0 is not finite or of the wrong size.
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
-    detail::check_size("x0", x0.size(), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
+    detail::check_start_in_set(x0, qp.b());
     auto const load = detail::projected_load(qp, constraints_.get());
     state_type s(projected(load.projected), constraints_.get(), m_.get(), x0, load.projected);
     s.load = norm(load.projected);
@@ -286,6 +247,15 @@ class constrained_newton<QP, C, M> {
 
  private:
   using projected_qp = detail::projected_qp<problem, constraints>;
+
+  // As in benchmarks/total_feti.cpp.
+  static constexpr double step_factor = 0.5;  // α in multiples of 1/mean(diag P A P)
+  static constexpr double sufficient = 0.1;   // c: β lowers the merit by c β of it at least
+  static constexpr index halvings = 20;       // β = 1, ½, …: so often at most
+  static constexpr index patience = 100;      // steps in which the merit does not fall: stalled
+  /// Inner accuracy, relative to the merit function.
+  static constexpr eisenstat_walker forcing{
+      .γ = 0.9, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1};
 
   [[nodiscard]] projected_qp projected(vector_type const& b) const {
     return {projected_hessian(qp_.get().a(), constraints_.get()), b, qp_.get().set()};
@@ -368,7 +338,7 @@ class constrained_newton<QP, C, M> {
   void lift(state_type& s, A const& a) const {
     s.trial = s.r;
     s.lifted.setZero();
-    scalar const noise = scalar(4) * std::numeric_limits<scalar>::epsilon() * s.feasibility_scale;
+    scalar const noise = scalar(4) * detail::epsilon<scalar>() * s.feasibility_scale;
     if (s.feasibility_norm > noise) {
       s.face.lift(s.offset, s.lifted);
       s.lifted *= scalar(-1) / s.unit;
@@ -383,12 +353,12 @@ class constrained_newton<QP, C, M> {
   /// The longest β = 2⁻ʲ that lowers θ enough; false if there is none. Spends no product.
   bool shorten(state_type& s) const {
     scalar β(1);
-    for (index j = 0; j <= options_.halvings; ++j, β /= scalar(2)) {
+    for (index j = 0; j <= halvings; ++j, β /= scalar(2)) {
       // residual_at needs two vectors: the gradient of the model is not needed any more.
       scalar const of_x = s.segment.residual_at(qp_.get().set(), β, s.projected, s.gradient_at_end);
       s.gradient_at_end = (scalar(1) - β) * s.offset_y + β * s.target_offset;
       scalar const merit = merit_of(s, of_x, norm(s.gradient_at_end));
-      scalar const enough = (scalar(1) - options_.sufficient * β) * s.merit;
+      scalar const enough = (scalar(1) - scalar(sufficient) * β) * s.merit;
       if (!(enough < s.merit)) return false;  // β is below the precision
       if (merit <= enough) {
         s.step_fraction = β;
@@ -402,7 +372,7 @@ class constrained_newton<QP, C, M> {
 
   void note_progress(state_type& s) const {
     if (s.status != status::running || s.fallback_at_work) return;
-    if (s.progress.stalled(s.iteration, s.merit, options_.patience)) {
+    if (s.progress.stalled(s.iteration, s.merit, patience)) {
       s.status = status::stalled;
     }
   }
@@ -410,29 +380,24 @@ class constrained_newton<QP, C, M> {
   /// α, and s = mean(diag M).
   void set_sizes(state_type& s) const {
     auto const& qp = qp_.get();
-    auto const mean =
-        detail::projected_mean_diagonal(qp.a(), constraints_.get(), s.x, options_.mean_diagonal);
+    auto const mean = detail::projected_mean_diagonal(qp.a(), constraints_.get(), s.x);
     s.work.setup_applications += mean.applications;
     scalar const size = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    s.step_length = options_.step_factor * size;
+    s.step_length = scalar(step_factor) * size;
     s.preconditioner_size = size;
     if constexpr (preconditioned) {
-      s.preconditioner_size = slant::mean_diagonal(m_.get(), s.x, options_.mean_diagonal).value;
+      s.preconditioner_size = mean_diagonal(m_.get(), s.x).value;
     }
   }
 
   void check() const {
-    index const n = qp_.get().size();
-    detail::check_size("columns of G", index(constraints_.get().size()), n, "the size of b,");
-    detail::check_size("rows of the preconditioner", index(m_.get().rows()), n);
-    detail::check_size("columns of the preconditioner", index(m_.get().cols()), n);
-    options_.validate();
+    detail::check_size("columns of G", index(constraints_.get().size()), qp_.get().size(),
+                       "the size of b,");
   }
 
   [[nodiscard]] auto fallback(state_type const& s) const {
-    auto own = options_.fallback;
-    own.penalty *= s.penalty_factor;
-    return smalse<problem const&, constraints const&>{qp_.get(), constraints_.get(), own};
+    return smalse<problem const&, constraints const&>{
+        qp_.get(), constraints_.get(), {.penalty = s.penalty_factor}};
   }
 
   /// x = P_Λ(z) with r and r̃; nothing to do if it is there.
@@ -448,7 +413,7 @@ class constrained_newton<QP, C, M> {
     scalar const α = s.step_length, κ = s.preconditioner_size / α;
     if (!s.face.assign(qp_.get().set(), s.segment.z, κ) && !can_lift(s)) return begin_fallback(s);
     lift(s, a);
-    scalar const target = s.forcing.next(options_.forcing) * s.merit / s.unit;
+    scalar const target = s.forcing.next(forcing) * s.merit / s.unit;
     auto const inner = s.inner.minimise(a, s.a_workspace, m_.get(), s.gradient_at_end, s.face, α,
                                         s.preconditioner_size, target, options_.inner_steps);
     if (!note_inner(inner, s)) {
@@ -542,10 +507,7 @@ class constrained_newton<QP, C, M> {
     s.progress = {};
   }
 
-  held<QP> qp_;
   held<C> constraints_;
-  held<M> m_;
-  options options_;
 };
 
 }  // namespace slant

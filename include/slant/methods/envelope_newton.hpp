@@ -43,9 +43,10 @@
 #include <slant/concepts/proximable.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/preconditioner.hpp>
+#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
-#include <slant/methods/symmetric_newton_options.hpp>
+#include <slant/methods/proportioning.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>
@@ -54,14 +55,12 @@
 
 #include <algorithm>
 #include <concepts>
-#include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
-
-// --- problem -------------------------------------------------------------------------------------
 
 /// min ½ xᵀA x − bᵀx + φ(x), A symmetric positive semidefinite, φ of blocks with slant(ρ, z); or over
 /// a set of blocks with slant(x).
@@ -70,7 +69,69 @@ concept envelope_newton_problem =
     composite_problem<QP> && psd_operator<typename QP::operator_type, typename QP::vector_type> &&
     has_block_slants<typename QP::set_type, local_t<typename QP::vector_type>>;
 
-// --- state ---------------------------------------------------------------------------------------
+/// Options of envelope_newton and symmetric_newton; the defaults are those of README's tables.
+template <class S = double>
+struct symmetric_newton_options {
+  /// ρ in x − P_Λ(x − ρ r), in units of 1/A; none: step_factor / mean(diag A).
+  std::optional<S> step_length{};
+  /// > 0, of the order 1. An undamped step leaves r = 0 on blocks that were free and x on its bound
+  /// where it was fixed, so that signs decide what is free next and not ρ; damped steps mix the
+  /// two. Measured on bricks (k = 4 … 16): ¼ and ½ alike, 1 up to a quarter more products. On the
+  /// wire from zero, with A⁻¹ as preconditioner, 2 needs half of the steps that ½ needs.
+  S step_factor = S(0.5);
+  mean_diagonal_options mean_diagonal{};  ///< how mean(diag A) is estimated, if it is needed
+  /// Inner accuracy. The exponent 3/2 makes the steps superlinear of that order; η_max is what a
+  /// step deserves that will be shortened; with a goal the last step is not solved too well.
+  eisenstat_walker forcing{.γ = 0.9, .exponent = 1.5, .η_max = 0.5, .η_first = 0.3};
+  index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
+  S sufficient = S(0.1);  ///< c in (0, 1): a step of length β lowers ‖F‖ by c β ‖F‖ at least
+  /// Of envelope_newton with a preconditioner that knows faces: ‖x − x*‖_A, as ‖Π(r + v)‖_M
+  /// estimates it, at which x is good enough; 0: never.
+  S energy_goal = S(0);
+  index halvings = 30;  ///< β = 1, ½, …: so often at most
+  /// Steps in which ‖F‖ does not fall that mean stalled; of envelope_newton for a definite A steps in
+  /// which neither ‖F‖ nor the envelope does.
+  index patience = 100;
+  kprgp_options<S> descent{.patience = 200};  ///< of the method that takes over where Newton fails
+
+  [[gnu::cold]] void validate() const {
+    if (step_length) detail::check_positive("step_length", *step_length);
+    detail::check_positive("step_factor", step_factor);
+    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
+    detail::check_fraction("sufficient", sufficient);
+    if (halvings < 0) throw bad_input("halvings", detail::show(halvings), "a number >= 0");
+    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
+    mean_diagonal.validate();
+    forcing.validate();
+    descent.validate();
+  }
+};
+
+namespace detail {
+
+/// ρ of a state, `factor`/mean(diag A) if the options name none, and s = mean(diag M). What knows
+/// the inverse on each face is not weighed against the curvature of its boundary. Not inlined:
+/// g++ 12 would see *step_length read where there is none.
+template <class QP, class M, class S, class State>
+[[gnu::noinline]] void set_sizes(QP const& qp, M const& m, symmetric_newton_options<S> const& o,
+                                 S const& factor, State& s) {
+  using face = curved_face<S>;
+  if (o.step_length) {
+    s.step_length = *o.step_length;
+  } else {
+    auto const step = mean_step(qp.a(), s.x, factor, o.mean_diagonal);
+    s.step_length = step.length;
+    s.work.setup_applications += step.applications;
+  }
+  if constexpr (std::is_same_v<M, identity_operator> ||
+                preconditions_faces<M, typename QP::vector_type, face>) {
+    s.preconditioner_size = s.step_length / factor;
+  } else {
+    s.preconditioner_size = mean_diagonal(m, s.x, o.mean_diagonal).value;
+  }
+}
+
+}  // namespace detail
 
 /// State of envelope_newton: x = prox_{ρφ}(z) with its gradient r, computed from x, and its reduced
 /// gradient (x − prox_{ρφ}(x − ρ r))/ρ; ρ is step_length.
@@ -79,16 +140,16 @@ struct envelope_newton_state : gradient_point<QP> {
   using typename gradient_point<QP>::vector_type;
   using typename gradient_point<QP>::scalar;
 
-  vector_type y;                         ///< Newton's iterate
-  vector_type gradient;                  ///< r(y), in multiples of unit
-  vector_type z;                         ///< y − ρ r(y)
+  vector_type y = this->x;               ///< Newton's iterate
+  vector_type gradient = y;              ///< r(y), in multiples of unit
+  vector_type z = y;                     ///< y − ρ r(y)
   curved_face<scalar> face;              ///< range(G) and C at z
   curved_minimum<vector_type, M> inner;  ///< the step t on it
   forcing_history<scalar> forcing{};     ///< errors and inner tolerances so far
   progress_watch<scalar> progress;       ///< looks for steps that get nowhere
-  vector_type lowered;                   ///< w = prox_{γφ}(y − γ r(y))
-  vector_type base;                      ///< y before the step
-  vector_type base_gradient;             ///< r(y) before the step
+  vector_type lowered = y;               ///< w = prox_{γφ}(y − γ r(y))
+  vector_type base = y;                  ///< y before the step
+  vector_type base_gradient = y;         ///< r(y) before the step
 
   scalar gradient_error{0};       ///< what rough products may have r(y) wrong by, in units
   scalar γ{0};                    ///< of the envelope, in units of 1/A
@@ -108,15 +169,7 @@ struct envelope_newton_state : gradient_point<QP> {
   slant::status status = slant::status::running;
 
   envelope_newton_state(QP const& qp, M const& m, vector_type const& x0)
-      : gradient_point<QP>(qp, x0),
-        y(x0),
-        gradient(x0),
-        z(x0),
-        face(function_of(qp)),
-        inner(x0, qp.size(), m),
-        lowered(x0),
-        base(x0),
-        base_gradient(x0) {}
+      : gradient_point<QP>(qp, x0), face(function_of(qp)), inner(x0, qp.size(), m) {}
 
   /// What a status other than running means here.
   [[nodiscard, gnu::cold]] std::string reason() const {
@@ -135,8 +188,6 @@ struct envelope_newton_state : gradient_point<QP> {
   }
 };
 
-// --- method --------------------------------------------------------------------------------------
-
 /// The method at the top of this file: solve(envelope_newton{qp}, x0, reduced_gradient_below(1e-8) ||
 /// at_most(100)); envelope_newton{qp, M} with a preconditioner M ≈ A⁻¹, options last. Begins at
 /// prox(x0). Statuses of its own: converged (r̃ = 0, or energy_goal reached), stalled, breakdown. The
@@ -144,29 +195,15 @@ struct envelope_newton_state : gradient_point<QP> {
 template <class QP, class M = identity_operator>
   requires envelope_newton_problem<std::remove_cvref_t<QP>> &&
            preconditioner_for<std::remove_cvref_t<M>, std::remove_cvref_t<QP>>
-class envelope_newton {
- public:
-  using problem = std::remove_cvref_t<QP>;
-  using preconditioner = std::remove_cvref_t<M>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = symmetric_newton_options<scalar>;
-  using state_type = envelope_newton_state<problem, preconditioner>;
-  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+class envelope_newton : public detail::preconditioned_program<QP, M, symmetric_newton_options> {
+  using base = detail::preconditioned_program<QP, M, symmetric_newton_options>;
+  using base::qp_, base::m_, base::options_;
 
-  /// Throws bad_input for options out of range.
-  explicit envelope_newton(held<QP> qp, options o = {})
-    requires(!preconditioned)
-      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
-    options_.validate();
-  }
-  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  envelope_newton(held<QP> qp, held<M> m, options o = {})
-      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
-    detail::check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
-    detail::check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
-    options_.validate();
-  }
+ public:
+  using typename base::problem, typename base::preconditioner, typename base::vector_type,
+      typename base::scalar;
+  using state_type = envelope_newton_state<problem, preconditioner>;
+  using base::base;
 
   /// The state of prox(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
   /// ρ is not a finite number.
@@ -190,7 +227,7 @@ class envelope_newton {
     detail::check_start_in_set(z, qp_.get().b());
     begin(s, s.begin(qp_.get(), z));
     vectors::copy(z, s.z);
-    s.value = std::numeric_limits<scalar>::infinity();
+    s.value = detail::infinity<scalar>();
     s.at_projection = true;
     return s;
   }
@@ -204,7 +241,7 @@ class envelope_newton {
     // ‖F‖ may rise for a long time while E_γ falls, which it may do for ever where A is singular.
     constexpr bool bounded = declares_positive_definite<typename problem::operator_type>;
     auto const value = [&] {
-      return std::pair(bounded ? s.value : std::numeric_limits<scalar>::infinity(), s.value_noise);
+      return std::pair(bounded ? s.value : detail::infinity<scalar>(), s.value_noise);
     };
     if (s.status == status::running &&
         s.progress.stalled(s.iteration, s.residual_norm, options_.patience, value, s.rounding())) {
@@ -239,8 +276,6 @@ class envelope_newton {
     s.status = status::running;
     begin(s, s.begin_again(qp_.get(), x0));
   }
-  /// r from x: it always is.
-  bool refresh(state_type&) const { return false; }
 
  private:
   /// ρ and γ in units of step_factor/mean(diag A). On bricks with friction a third of the steps that
@@ -300,7 +335,7 @@ class envelope_newton {
     s.value = (with_r - with_b) / scalar(2) + steep + near + extra;
     scalar const size = norm(s.y), slope = norm(s.gradient);
     scalar const bent = extra < scalar(0) ? -extra : extra;
-    s.value_noise = scalar(16) * std::numeric_limits<scalar>::epsilon() *
+    s.value_noise = scalar(16) * detail::epsilon<scalar>() *
                         (size * (slope + s.size_of_b) + s.way * slope + near + bent) +
                     size * s.gradient_error;
   }
@@ -320,7 +355,7 @@ class envelope_newton {
     vectors::difference(s.r, s.gradient, s.reduced);
     scalar const way = norm(s.trial), bend = inner_product(s.trial, s.reduced);
     scalar const noise =
-        scalar(16) * std::numeric_limits<scalar>::epsilon() * way *
+        scalar(16) * detail::epsilon<scalar>() * way *
             (norm(s.r) + norm(s.gradient) + s.size_of_b + norm(s.x) / (s.γ * s.unit)) +
         way * s.gradient_error;
     scalar const allowed = share * way * (way / (s.γ * s.unit));
@@ -456,21 +491,13 @@ class envelope_newton {
     }
     stay(s);
   }
-
-  held<QP> qp_;
-  held<M> m_;
-  options options_;
 };
 
 template <class QP>
-envelope_newton(QP&&) -> envelope_newton<kept_t<QP>>;
-template <class QP>
-envelope_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+envelope_newton(QP&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar> = {})
     -> envelope_newton<kept_t<QP>>;
 template <class QP, class M>
-envelope_newton(QP&&, M&&) -> envelope_newton<kept_t<QP>, kept_t<M>>;
-template <class QP, class M>
-envelope_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar>)
+envelope_newton(QP&&, M&&, symmetric_newton_options<typename std::remove_cvref_t<QP>::scalar> = {})
     -> envelope_newton<kept_t<QP>, kept_t<M>>;
 
 }  // namespace slant

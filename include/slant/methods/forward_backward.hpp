@@ -22,7 +22,6 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
-#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/problems/quadratic_program.hpp>
 
@@ -34,14 +33,10 @@
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// min ½ xᵀA x − bᵀx + φ(x), A symmetric positive semidefinite, φ with a proximal map or a set.
 template <class QP>
 concept forward_backward_problem =
     composite_problem<QP> && psd_operator<typename QP::operator_type, typename QP::vector_type>;
-
-// --- options -------------------------------------------------------------------------------------
 
 /// Options of forward_backward.
 template <class S>
@@ -49,16 +44,12 @@ struct forward_backward_options {
   std::optional<S> step_length{};  ///< α in (0, 1/σ_max]; not given: see krylov/spectrum.hpp
   bool extrapolate = true;         ///< θ as above; false: θ = 0
   index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
-  spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
   [[gnu::cold]] void validate() const {
     if (step_length) detail::check_positive("step_length", *step_length);
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-    spectrum.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// State of forward_backward: x with its gradient r and r̃ = (x − prox_{αφ}(x − α r))/α.
 template <class QP>
@@ -66,16 +57,15 @@ struct forward_backward_state : gradient_point<QP> {
   using typename gradient_point<QP>::vector_type;
   using typename gradient_point<QP>::scalar;
 
-  vector_type previous;           ///< x₋
-  vector_type previous_gradient;  ///< r(x₋), in multiples of unit
-  vector_type y;                  ///< where the last step began
+  vector_type previous = this->x;           ///< x₋
+  vector_type previous_gradient = this->r;  ///< r(x₋), in multiples of unit
+  vector_type y = this->x;                  ///< where the last step began
   progress_watch<scalar> progress;
   scalar momentum{1};  ///< t
   index iteration = 0;
   slant::status status = slant::status::running;
 
-  forward_backward_state(QP const& qp, vector_type const& x0)
-      : gradient_point<QP>(qp, x0), previous(x0), previous_gradient(x0), y(x0) {}
+  using gradient_point<QP>::gradient_point;
 
   [[nodiscard, gnu::cold]] std::string reason() const {
     return detail::reason_of(
@@ -83,12 +73,11 @@ struct forward_backward_state : gradient_point<QP> {
   }
 };
 
-// --- method --------------------------------------------------------------------------------------
-
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP>
 class forward_backward
-    : public detail::refused_program<QP, forward_backward_state, forward_backward_options> {
+    : public detail::refused_program<QP, forward_backward_state<std::remove_cvref_t<QP>>,
+                                     forward_backward_options<detail::program_scalar_t<QP>>> {
   static_assert(detail::composite_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -124,7 +113,7 @@ class forward_backward<QP> {
   [[nodiscard]] state_type start(vector_type const& x0) const {
     detail::check_start_in_set(x0, qp_.get().b());
     state_type s(qp_.get(), x0);
-    static_cast<void>(s.set_step_length(qp_.get(), options_, scalar(1)));
+    static_cast<void>(s.set_step_length(qp_.get(), options_.step_length, scalar(1)));
     if (s.begin(qp_.get(), x0)) s.status = status::converged;
     detail::judge_reduced_gradient(s);
     return s;
@@ -156,9 +145,6 @@ class forward_backward<QP> {
       s.status = status::stalled;
     }
   }
-
-  /// r from x: it always is.
-  bool refresh(state_type&) const { return false; }
 
  private:
   /// θ for this step; t and x₋ become those of the next one.

@@ -55,31 +55,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
-/// A product of blocks with smooth inequalities in which a step to the boundary is known.
-template <class C, class V>
-concept interior_point_domain =
-    convex_set<C, V> && has_block_inequalities<C, V> && has_step_to_boundary<C, V>;
-
-/// What interior_point works on: min ½ xᵀA x − bᵀx over x ∈ Λ, A symmetric positive semidefinite.
+/// What interior_point works on: min ½ xᵀA x − bᵀx over x ∈ Λ, A symmetric positive semidefinite,
+/// Λ a product of blocks with smooth inequalities in which a step to the boundary is known.
 template <class QP>
 concept interior_point_problem =
     quadratic_program<QP> && psd_operator<typename QP::operator_type, typename QP::vector_type> &&
-    interior_point_domain<typename QP::set_type, local_t<typename QP::vector_type>>;
+    convex_set<typename QP::set_type, local_t<typename QP::vector_type>> &&
+    has_block_inequalities<typename QP::set_type, local_t<typename QP::vector_type>> &&
+    has_step_to_boundary<typename QP::set_type, local_t<typename QP::vector_type>>;
 
 namespace detail {
-
-template <class QP>
-using plain_interior_point_state = interior_point_state<QP, identity_operator>;
-template <class S>
-using interior_point_options_of = interior_point_options<S>;
 
 template <class QP, class M>
 struct interior_point_demands {
@@ -103,8 +93,9 @@ struct interior_point_demands<QP, M> {
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
-class interior_point : public detail::refused_program<QP, detail::plain_interior_point_state,
-                                                      detail::interior_point_options_of> {
+class interior_point : public detail::refused_program<
+                           QP, interior_point_state<std::remove_cvref_t<QP>, identity_operator>,
+                           interior_point_options<detail::program_scalar_t<QP>>> {
   static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
       detail::interior_point_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
@@ -120,35 +111,18 @@ template <class QP, class M>
 interior_point(QP&&, M&&, interior_point_options<detail::program_scalar_t<QP>> = {})
     -> interior_point<kept_t<QP>, kept_t<M>>;
 
-// --- method --------------------------------------------------------------------------------------
-
 namespace detail {
 
 /// What `interior_point` does with a problem that has all it needs.
 template <class QP, class M>
-class interior_point_steps {
- public:
-  using problem = std::remove_cvref_t<QP>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = interior_point_options<scalar>;
-  using preconditioner = std::remove_cvref_t<M>;
-  using state_type = interior_point_state<problem, preconditioner>;
-  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+class interior_point_steps : public preconditioned_program<QP, M, interior_point_options> {
+  using base = preconditioned_program<QP, M, interior_point_options>;
+  using base::qp_, base::m_, base::options_, base::preconditioned;
 
-  /// Throws bad_input for options out of range.
-  explicit interior_point_steps(held<QP> qp, options o = {})
-    requires(!preconditioned)
-      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
-    options_.validate();
-  }
-  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  interior_point_steps(held<QP> qp, held<M> m, options o = {})
-      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
-    check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
-    check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
-    options_.validate();
-  }
+ public:
+  using typename base::problem, typename base::vector_type, typename base::scalar;
+  using state_type = interior_point_state<problem, typename base::preconditioner>;
+  using base::base;
 
   /// The state of a point in the interior on the way from P_Λ(x0), or P_Λ(0) where q is smaller,
   /// to the middle of Λ. Throws
@@ -165,7 +139,13 @@ class interior_point_steps {
  private:
   [[nodiscard]] auto const& blocks() const { return qp_.get().set(); }
 
-  // The constants of [K §3.2.4] are γ, ω, ρ and those of c; c_min is an option.
+  static constexpr index patience = 30;       // steps without progress that mean stalled
+  static constexpr index inner_steps = 1000;  // of conjugate gradients in one Newton step at most
+  /// Inner accuracy, relative to the right-hand side: not the one that [K §3.2.4] proposes (0.1 and
+  /// 0.9), but that of its Table 3 with the fewest products.
+  static constexpr adaptive_precision forcing{.r_tol = 0.3, .c_fact = 0.99};
+
+  // The constants of [K §3.2.4] are γ, ω, ρ and those of c but c_min.
   static constexpr double closeness = 1e-3;          // γ: ν_i z_i ≥ γ ϑ
   static constexpr double sufficient = 0.1;          // ω: ϑ⁺ ≤ (1 − α ω (1 − c)) ϑ
   static constexpr double centring_most = 0.5;       // c_max
@@ -183,11 +163,23 @@ class interior_point_steps {
   /// flow past an obstacle (examples/stokes, g = 10) and leaves the bricks as they are.
   static constexpr double raise_above = 5;
   static constexpr index most_raises = 10;
+  /// c_z: first slacks of sets without an end, in natural lengths, where [K] has 1 as for c_ν. With
+  /// a tenth there are twice as many steps.
+  static constexpr double start_length = 3;
+  // Where the set has discs or cones, on which force and point turn into line at the rate of ϑ,
+  // these are larger.
+  /// c_ν: first multipliers, in natural forces. On bricks 0.6 takes fewer products than 0.3.
+  static scalar start_force(state_type const& s) { return scalar(s.pairs.empty() ? 0.3 : 0.6); }
+  /// c_min, 1e-30 in [K].
+  static scalar least_centring(state_type const& s) { return scalar(s.pairs.empty() ? 0.1 : 0.2); }
+  /// A step shorter than this is computed again with its own second-order term [Mehrotra]; the
+  /// longer of the two is made. 0: never.
+  static scalar correct_below(state_type const& s) { return scalar(s.pairs.empty() ? 0 : 0.3); }
 
-  static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
+  static constexpr scalar infinity = detail::infinity<scalar>();
 
-  /// D and α. Not inlined: g++ 12 would see *step_length read where there is none.
-  [[gnu::noinline]] void set_diagonal(state_type& s) const {
+  /// D, and α = ½ / mean(diag A) of the reduced gradient.
+  void set_diagonal(state_type& s) const {
     auto const& qp = qp_.get();
     auto const of_a = [&] {
       if constexpr (preconditioned) {
@@ -202,15 +194,8 @@ class interior_point_steps {
     auto const mean = of_a();
     s.work.setup_applications += mean.applications;
     s.trace = mean.value * scalar(slant::global_size(s.x));
-    if (options_.step_length) {
-      s.step_length = *options_.step_length;
-      return;
-    }
     s.step_length = mean.value > scalar(0) ? scalar(scalar(0.5) / mean.value) : scalar(1);
-    if (!(s.step_length > scalar(0)) || !is_finite(s.step_length)) {
-      throw bad_input("A", "mean of the diagonal " + show(mean.value),
-                      "one whose reciprocal is a finite number > 0");
-    }
+    check_step_length(s.step_length, "mean of the diagonal", mean.value);
   }
 
   /// The length of the first projected gradient step with the best step length: that of what Λ does
@@ -304,7 +289,7 @@ class interior_point_steps {
   void count(state_type& s) const {
     auto& counted = slant::local(s.counted);
     counted = (s.barrier.per_unit().array() > scalar(0)).template cast<scalar>().matrix();
-    s.constraints = static_cast<index>(inner_product(s.counted, s.counted) + scalar(0.5));
+    s.constraints = index(inner_product(s.counted, s.counted) + scalar(0.5));
     vectors::copy(s.counted, s.smooth);
     s.pairs.visit(blocks(), [&](auto const& block, auto const&, auto const& at) {
       constexpr int k = detail::inequalities_of<std::remove_cvref_t<decltype(block)>>;
@@ -398,9 +383,9 @@ class interior_point_steps {
         auto const from = place.value(s.trial);
         auto const middle = place.value(s.centre);
         auto at = from;
-        scalar back = scalar(2) * std::numeric_limits<scalar>::epsilon();
+        scalar back = scalar(2) * detail::epsilon<scalar>();
         while (!(block.inequality(at).maxCoeff() < scalar(0)) &&
-               back < scalar(1024) * std::numeric_limits<scalar>::epsilon()) {
+               back < scalar(1024) * detail::epsilon<scalar>()) {
           at = from + back * (middle - from);
           back *= scalar(2);
         }
@@ -419,15 +404,8 @@ class interior_point_steps {
                  std::max(least_centring(s), scalar(scalar(centring_scale) * (q * q * q))));
   }
 
-  [[nodiscard]] scalar correct_below(state_type const& s) const {
-    return detail::set_or(options_.correct_below, scalar(s.pairs.empty() ? 0 : 0.3));
-  }
-  [[nodiscard]] scalar least_centring(state_type const& s) const {
-    return detail::set_or(options_.centring_least, scalar(s.pairs.empty() ? 0.1 : 0.2));
-  }
-
   /// c where a step had the length α [Mehrotra].
-  [[nodiscard]] scalar centring_after(state_type const& s, scalar const& α) const {
+  [[nodiscard]] static scalar centring_after(state_type const& s, scalar const& α) {
     scalar const rest = scalar(1) - α;
     return std::min(scalar(centring_most), std::max<scalar>(least_centring(s), rest * rest * rest));
   }
@@ -458,13 +436,12 @@ class interior_point_steps {
     s.barrier.keep_fixed(s.rhs);
     // rhs = r + G(…): what is left of the two below the rounding error of r cannot be told from it.
     scalar const target = std::max<scalar>(
-        s.forcing.next(options_.forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
-        std::numeric_limits<scalar>::epsilon() * norm(s.r));
+        s.forcing.next(forcing) * norm(s.rhs) * scalar(corrected > scalar(0) ? 0.3 : 1.0),
+        detail::epsilon<scalar>() * norm(s.r));
     // A step that was cut short says little about the next one.
     bool const warm = again || s.step_fraction > scalar(0.1);
-    auto const inner =
-        s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs, target,
-                      options_.inner_share, options_.inner_steps, warm, s.trace);
+    auto const inner = s.inner.solve(qp.a(), s.a_workspace, m_.get(), s.barrier, s.diagonal, s.rhs,
+                                     target, options_.inner_share, inner_steps, warm, s.trace);
     s.inner_iterations = inner.iterations;
     s.work.inner_iterations += inner.iterations;
     s.work.operator_applications += inner.iterations;
@@ -510,8 +487,7 @@ class interior_point_steps {
     vectors::copy(image, s.rhs);
     if (way_out(s, d) < infinity) {
       // What of d leads out of Λ is left away: (P_Λ(x + τ d) − x)/τ for a long τ.
-      scalar const long_way =
-          unit_near(norm(s.x)) / (std::numeric_limits<scalar>::epsilon() * norm(d));
+      scalar const long_way = unit_near(norm(s.x)) / (detail::epsilon<scalar>() * norm(d));
       if (!detail::is_finite(long_way)) return false;
       vectors::waxpy(long_way, d, s.x, s.trial);
       slant::project(qp_.get().set(), slant::local(s.trial), slant::local(s.trial));
@@ -577,21 +553,16 @@ class interior_point_steps {
   void note_progress(state_type& s) const {
     detail::judge_reduced_gradient(s);
     if (s.status != status::running) return;
-    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, options_.patience)) {
+    if (s.progress.stalled(s.iteration, s.reduced_gradient_norm, patience)) {
       s.status = status::stalled;
     }
   }
-
-  held<QP> qp_;
-  held<M> m_;
-  options options_;
 };
 
 template <class QP, class M>
 auto interior_point_steps<QP, M>::start(vector_type const& x0) const -> state_type {
   auto const& qp = qp_.get();
-  detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
-  detail::check_finite("x0", x0);
+  detail::check_start_in_set(x0, qp.b());
   state_type s(qp, m_.get(), x0);
   set_diagonal(s);
   auto origin = like(x0, qp.size());
@@ -599,10 +570,8 @@ auto interior_point_steps<QP, M>::start(vector_type const& x0) const -> state_ty
   bool const solved = s.begin(qp, origin);
   using std::sqrt;
   scalar const per_entry = sqrt(scalar(scalar(1) / scalar(slant::global_size(x0))));
-  scalar const start_force =
-      detail::set_or(options_.start_force, scalar(s.pairs.empty() ? 0.3 : 0.6));
-  scalar const force = start_force * norm(s.r) * per_entry;
-  scalar const length = options_.start_length * first_way(s) * per_entry;
+  scalar const force = start_force(s) * norm(s.r) * per_entry;
+  scalar const length = scalar(start_length) * first_way(s) * per_entry;
   if (!solved) choose_start(s, x0);
   s.trial = s.x;
   enter_interior(blocks(), solved ? scalar(1) : length, s.x, s.barrier.per_unit(),

@@ -21,15 +21,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// State of interior_point for a separable_qp of type QP with the preconditioner M. x in the
 /// interior of Λ with its gradient r and its reduced gradient are those of gradient_point. Vectors
@@ -43,20 +40,20 @@ struct interior_point_state : gradient_point<QP> {
   lorentz_pairs<scalar> pairs;     ///< forces on discs and cones, in multiples of unit
   vector_type multipliers;         ///< ν > 0; 0 where there is no bound. The multiplier of f_i is
                                    ///< unit · ν_i · barrier.per_unit()_i; of pairs an estimate
-  vector_type slacks;              ///< z = −f(x)/σ > 0, lengths
-  vector_type lagrangian;          ///< ∇L = r + G ν − Σ Tᵀy, in multiples of unit
-  vector_type products;            ///< ν_i z_i; pᵀy in the first row of a pair
-  vector_type counted;          ///< 1 in the rows of which ϑ is the mean of the products, else 0
-  vector_type smooth;           ///< 1 in those of them that belong to no pair, else 0
-  vector_type diagonal;         ///< D ≈ diag(A), of M if there is one
-  vector_type centre;           ///< a point in the middle of every block
-  vector_type step;             ///< Δx
-  vector_type multiplier_step;  ///< Δν
-  vector_type slack_step;       ///< −Δz = GᵀΔx
-  vector_type rhs;              ///< scratch: minus the right-hand side of [K (43)]
-  vector_type row_scratch;      ///< scratch, one entry per inequality
-  vector_type trial_slacks, trial_multipliers;    ///< those of the trial point
-  barrier_minimum<vector_type, M> inner;          ///< solves for Δx
+  vector_type slacks = multipliers;    ///< z = −f(x)/σ > 0, lengths
+  vector_type lagrangian = this->r;    ///< ∇L = r + G ν − Σ Tᵀy, in multiples of unit
+  vector_type products = multipliers;  ///< ν_i z_i; pᵀy in the first row of a pair
+  vector_type counted = multipliers;   ///< 1 in the rows of which ϑ is the mean of the products
+  vector_type smooth = multipliers;    ///< 1 in those of them that belong to no pair, else 0
+  vector_type diagonal = this->r;      ///< D ≈ diag(A), of M if there is one
+  vector_type centre = this->r;        ///< a point in the middle of every block
+  vector_type step = this->r;          ///< Δx
+  vector_type multiplier_step = multipliers;  ///< Δν
+  vector_type slack_step = multipliers;       ///< −Δz = GᵀΔx
+  vector_type rhs = this->r;                  ///< scratch: minus the right-hand side of [K (43)]
+  vector_type row_scratch = multipliers;      ///< scratch, one entry per inequality
+  vector_type trial_slacks = multipliers, trial_multipliers = multipliers;  ///< of the trial point
+  barrier_minimum<vector_type, M> inner;                                    ///< solves for Δx
   forcing_history<scalar> forcing{};              ///< errors and inner tolerances so far
   progress_watch<scalar> progress{scalar(1e-4)};  ///< looks for steps that get nowhere
 
@@ -67,14 +64,14 @@ struct interior_point_state : gradient_point<QP> {
   scalar least{0};          ///< the smallest of the products, for pairs λ_min²
   scalar infeasible{1};     ///< φ, the product of 1 − α: what steps leave of the first ∇L
   scalar first_measure{0};  ///< ϑ of the start
-  scalar trial_measure{0}, trial_least{0};                     ///< those of the trial point
-  scalar lagrangian_norm{0};                                   ///< ‖∇L‖
-  scalar residual_bound{0};                                    ///< β
-  scalar centring{0};                                          ///< c of the last step
-  scalar step_fraction{0};                                     ///< α of the last step
-  scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖Δx‖, of the whole step
-  scalar x_norm{0};                                            ///< ‖x‖
-  index inner_iterations = 0;                                  ///< of the last step
+  scalar trial_measure{0}, trial_least{0};        ///< those of the trial point
+  scalar lagrangian_norm{0};                      ///< ‖∇L‖
+  scalar residual_bound{0};                       ///< β
+  scalar centring{0};                             ///< c of the last step
+  scalar step_fraction{0};                        ///< α of the last step
+  scalar step_norm = detail::infinity<scalar>();  ///< ‖Δx‖, of the whole step
+  scalar x_norm{0};                               ///< ‖x‖
+  index inner_iterations = 0;                     ///< of the last step
   bool under_way = false;  ///< a step was longer than half of what Newton proposed
   index raises = 0;        ///< how often ϑ was raised
   index iteration = 0;
@@ -85,20 +82,6 @@ struct interior_point_state : gradient_point<QP> {
         barrier(qp.set()),
         pairs(qp.set()),
         multipliers(like(x0, barrier.rows())),
-        slacks(like(x0, barrier.rows())),
-        lagrangian(like(x0, qp.size())),
-        products(like(x0, barrier.rows())),
-        counted(like(x0, barrier.rows())),
-        smooth(like(x0, barrier.rows())),
-        diagonal(like(x0, qp.size())),
-        centre(like(x0, qp.size())),
-        step(like(x0, qp.size())),
-        multiplier_step(like(x0, barrier.rows())),
-        slack_step(like(x0, barrier.rows())),
-        rhs(like(x0, qp.size())),
-        row_scratch(like(x0, barrier.rows())),
-        trial_slacks(like(x0, barrier.rows())),
-        trial_multipliers(like(x0, barrier.rows())),
         inner(x0, qp.size(), m) {}
 
   [[nodiscard, gnu::cold]] std::string reason() const {
@@ -110,73 +93,20 @@ struct interior_point_state : gradient_point<QP> {
   }
 };
 
-// --- options -------------------------------------------------------------------------------------
-
-namespace detail {
-
-/// The option if it is set. Not inlined: g++ 12 would see a value read where there is none.
-template <class S>
-[[nodiscard, gnu::noinline]] S set_or(std::optional<S> const& option, S const& otherwise) {
-  return option ? *option : otherwise;
-}
-
-}  // namespace detail
-
-/// Options of interior_point. Defaults differ from [K §3.2.4] in c_min (1e-30 there), the inner
-/// accuracy (0.1 and 0.9 are proposed there; 0.3 and 0.99 are those of its Table 3 with the fewest
-/// products) and the start (c_ν = c_z = 1 there; here lengths and forces are multiples of those of
-/// the data).
-template <scalar S = double>
+/// Options of interior_point.
+template <class S = double>
 struct interior_point_options {
-  /// α of the reduced gradient r̃ = (x − P_Λ(x − α r))/α, in units of 1/A; none: ½ / mean(diag A).
-  std::optional<S> step_length{};
   mean_diagonal_options mean_diagonal{.samples = 3};  ///< of diag(A), for each part of the set
-
-  /// c_z > 0: first slacks of sets without an end, in natural lengths; c_ν > 0: first multipliers,
-  /// in natural forces. On bricks 3 and 0.6 take fewer products than 3 and 0.3; with a tenth of
-  /// these lengths there are twice as many steps.
-  S start_length = S(3);
-  /// None: 0.6 where the set has discs or cones, else 0.3.
-  std::optional<S> start_force{};
-
-  /// In [0, 1]: a step shorter than this is computed again with its own second-order term
-  /// [Mehrotra]; the longer of the two is made. 0: never.
-  /// None: 0.3 where the set has discs or cones, else 0.
-  std::optional<S> correct_below{};
-
-  /// c_min in [0, ½]; 0: pure Newton steps. None: 0.2 where the set has discs or cones, on
-  /// which force and point turn into line at the rate of ϑ, else 0.1.
-  std::optional<S> centring_least{};
-
-  adaptive_precision forcing{.r_tol = 0.3,
-                             .c_fact = 0.99};  ///< inner accuracy, relative to the right-hand side
   /// In [0, 1): inner iterations end, too, where the last terms add less than
   /// this part to ‖Δx‖_A. 0: never. 0.3 is for an M that makes conjugate gradients fast, as
   /// contact::lumped_preconditioner: on bricks, k = 4 … 10, 93 to 307 products to an error of 5e-9
   /// become 93 to 187. With a poor M terms are small long before the end, and steps lead nowhere.
   S inner_share = S(0);
-  index inner_steps = 1000;  ///< conjugate gradient steps of one Newton step at most
-  index patience = 30;       ///< steps without progress that mean stalled
 
   [[gnu::cold]] void validate() const {
-    if (step_length) detail::check_positive("step_length", *step_length);
-    detail::check_positive("start_length", start_length);
-    if (start_force) detail::check_positive("start_force", *start_force);
-    if (centring_least) {
-      detail::check_option("centring_least", *centring_least,
-                           *centring_least >= S(0) && *centring_least <= S(0.5),
-                           "a number in [0, 0.5]");
-    }
-    if (correct_below) {
-      detail::check_option("correct_below", *correct_below,
-                           *correct_below >= S(0) && *correct_below <= S(1), "a number in [0, 1]");
-    }
     detail::check_option("inner_share", inner_share, inner_share >= S(0) && inner_share < S(1),
                          "a number in [0, 1)");
-    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
-    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
     mean_diagonal.validate();
-    forcing.validate();
   }
 };
 
@@ -378,8 +308,7 @@ template <class A, class C, class V>
       slant::local(v).coeffRef(applications) = S(1);
       slant::apply(a, v, image, temporaries);
       S const entry = slant::local(image).coeff(applications);
-      bool const rounded =
-          entry < S(0) && -entry <= S(8) * std::numeric_limits<S>::epsilon() * norm(image);
+      bool const rounded = entry < S(0) && -entry <= S(8) * detail::epsilon<S>() * norm(image);
       slant::local(d).coeffRef(applications) = rounded ? S(0) : mean_of(entry, S(1));
     }
     detail::random_bits bits(options.seed);
@@ -395,7 +324,7 @@ template <class A, class C, class V>
         }
         slant::apply(a, v, image, temporaries);
         sum += inner_product(v, image);
-        noise += S(8) * std::numeric_limits<S>::epsilon() * norm(v) * norm(image);
+        noise += S(8) * detail::epsilon<S>() * norm(v) * norm(image);
       }
       if (sum < S(0) && -sum <= noise) sum = S(0);
       slant::local(d)

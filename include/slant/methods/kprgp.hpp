@@ -28,7 +28,6 @@
 
 #include <slant/base/held.hpp>
 #include <slant/compiled.hpp>
-#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/face.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
@@ -40,38 +39,10 @@
 #endif
 
 #include <algorithm>
-#include <limits>
-#include <optional>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
-
-// --- qpc options ---------------------------------------------------------------------------------
-
-/// Options of qpc: those of kprgp with another rule.
-template <class S>
-struct qpc_options {
-  S face_accuracy = S(0.1);  ///< in [0, 1): CG goes on until ‖φ‖ is this fraction of its first size
-      ///< on the face, and of ‖β‖. Small: nearly the minimum on each face
-  std::optional<S> step_length{};  ///< as for kprgp, and so the rest
-  S step_factor = S(1.9);
-  active_set_rule active_sets = active_set_rule::boundary;
-  index refresh = 50;
-  index patience = 1000;
-  spectral_bound_options spectrum{};
-
-  [[gnu::cold]] void validate() const {
-    detail::check_option("face_accuracy", face_accuracy,
-                         face_accuracy >= S(0) && face_accuracy < S(1), "a number in [0, 1)");
-    kprgp_options<S>{.step_length = step_length,
-                     .step_factor = step_factor,
-                     .refresh = refresh,
-                     .patience = patience,
-                     .spectrum = spectrum}
-        .validate();
-  }
-};
 
 // --- kkt vector ----------------------------------------------------------------------------------
 //
@@ -144,15 +115,13 @@ void kkt_vector(Set const& set, Face const& face, V const& x, V const& r, V cons
 
 /// The rule of KPRGP.
 struct reduced_gradient_release {
-  template <class S>
-  using options = kprgp_options<S>;
   static constexpr bool minimising = false;  ///< the step of length α̃ along −β̃, projected
 
   /// What the two parts of r̃ can gain.
   template <class QP, class State>
   static void weigh(QP const&, State& s) {
     using S = typename State::scalar;
-    S const ε = std::numeric_limits<S>::epsilon();
+    S const ε = detail::epsilon<S>();
     S const rounding = ε * norm(s.x) / (s.step_length * s.unit);  // of r̃
     S const noise = rounding * norm(s.r);
     s.face.keep(s.reduced, s.φ);
@@ -168,7 +137,7 @@ struct reduced_gradient_release {
   }
 };
 
-/// What QPQ and QPC share: φ and the vector β of [K Lemma 1], along which q is minimised.
+/// The rule of QPQ: φ and the vector β of [K Lemma 1], along which q is minimised.
 struct kkt_release {
   static constexpr bool minimising = true;
 
@@ -187,12 +156,6 @@ struct kkt_release {
     s.face.keep_complement(s.reduced, β);
     kkt_vector(qp.set(), s.face, s.x, s.r, s.reduced, β);
   }
-};
-
-/// The rule of QPQ.
-struct kkt_proportioning : kkt_release {
-  template <class S>
-  using options = kprgp_options<S>;
 
   /// ‖β‖ < Γ ‖φ‖.
   template <class State, class Options>
@@ -203,9 +166,6 @@ struct kkt_proportioning : kkt_release {
 
 /// The rule of QPC.
 struct face_minimum_release : kkt_release {
-  template <class S>
-  using options = qpc_options<S>;
-
   /// Is ‖φ‖ larger than a fraction of what it was on this face at first, and of ‖β‖? True if there
   /// is nothing to release.
   template <class State, class Options>
@@ -215,8 +175,6 @@ struct face_minimum_release : kkt_release {
     return s.βr == S(0) || s.φr > o.face_accuracy * o.face_accuracy * scale;
   }
 };
-
-// --- kprgp ---------------------------------------------------------------------------------------
 
 /// KPRGP for a separable_qp: solve(kprgp{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
 /// Requires: psd_operator (A symmetric positive semidefinite) and separable_set with
@@ -228,7 +186,6 @@ struct face_minimum_release : kkt_release {
 /// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class kprgp : public proportioning<QP, reduced_gradient_release> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -238,21 +195,14 @@ class kprgp : public proportioning<QP, reduced_gradient_release> {
 template <class QP>
 kprgp(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> kprgp<kept_t<QP>>;
 
-/// AS [K Ex 5], KPRGP by its name for the two-sided bounds of plane friction: solve(as(qp), x0,
-/// reduced_gradient_below(1e-6) || at_most(500)).
-template <class QP>
-[[nodiscard]] auto as(QP&& qp, kprgp_options<detail::program_scalar_t<QP>> options = {}) {
-  return kprgp<kept_t<QP>>(std::forward<QP>(qp), std::move(options));
-}
-
-/// AS-S [K Ex 5], KPRGP with the active sets of semismooth Newton: F = blocks with (x − α̃ r)_i
-/// inside Λ_i instead of those with x_i inside. [K] states that Theorem 1 holds for it as
-/// well, and reports it as the stabler one with steps far beyond 2/σ_max. solve(as_s(qp), x0,
-/// reduced_gradient_below(1e-6) || at_most(500)).
+/// AS-S [K Ex 5], where KPRGP is called AS: KPRGP with the active sets of semismooth Newton: F =
+/// blocks with (x − α̃ r)_i inside Λ_i instead of those with x_i inside. [K] states that Theorem 1
+/// holds for it as well, and reports it as the stabler one with steps far beyond 2/σ_max.
+/// solve(as_s(qp), x0, reduced_gradient_below(1e-6) || at_most(500)).
 template <class QP>
 [[nodiscard]] auto as_s(QP&& qp, kprgp_options<detail::program_scalar_t<QP>> options = {}) {
-  options.active_sets = active_set_rule::semismooth;
-  return slant::as(std::forward<QP>(qp), std::move(options));
+  options.semismooth_sets = true;
+  return kprgp<kept_t<QP>>(std::forward<QP>(qp), std::move(options));
 }
 
 #if SLANT_USES_COMPILED
@@ -285,8 +235,7 @@ extern template class detail::proportioning_steps<any_qp<double, semidefinite_la
 /// Requirements, options and statuses are those of kprgp. One application of A a step, two for an
 /// expansion.
 template <class QP>
-class qpq : public proportioning<QP, kkt_proportioning> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
+class qpq : public proportioning<QP, kkt_release> {
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -304,10 +253,9 @@ qpq(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> qpq<kept_t<QP>>;
 // releases where ‖φ‖ ≤ δ max(‖φ‖ at the first point of the face, ‖β‖).
 
 /// QPC for a separable_qp: solve(qpc{qp}, x0, reduced_gradient_below(1e-1) || at_most(500)).
-/// Requirements, statuses and cost are those of qpq.
+/// Requirements, options, statuses and cost are those of qpq.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -315,6 +263,6 @@ class qpc : public proportioning<QP, face_minimum_release> {
 };
 
 template <class QP>
-qpc(QP&&, qpc_options<detail::program_scalar_t<QP>> = {}) -> qpc<kept_t<QP>>;
+qpc(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> qpc<kept_t<QP>>;
 
 }  // namespace slant

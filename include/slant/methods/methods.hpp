@@ -23,7 +23,6 @@
 #include <slant/methods/ssnm.hpp>
 #include <slant/methods/successive_approximations.hpp>
 #include <slant/methods/symmetric_newton.hpp>
-#include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/methods/unconstrained_start.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/problems/problems.hpp>

@@ -30,7 +30,6 @@
 #include <slant/concepts/bad_input.hpp>
 #include <slant/krylov/conjugate_directions.hpp>
 #include <slant/krylov/feasible_step.hpp>
-#include <slant/krylov/spectrum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
 #include <slant/methods/parts/recession.hpp>
 #include <slant/newton/forcing.hpp>
@@ -39,7 +38,6 @@
 #include <slant/sets/face.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -137,15 +135,6 @@ template <>
 inline constexpr adaptive_precision default_forcing<adaptive_precision>{.r_tol = 0.5,
                                                                         .c_fact = 0.999};
 
-/// The inner iterations end at ‖φ‖ ≤ η err^(0) [K (3.1°)] for the adaptive precision of the
-/// documents, whose η falls with err^(k)/err^(0); at ‖φ‖ ≤ η err^(k) for all other rules.
-template <class Forcing, class S>
-[[nodiscard]] S inner_accuracy(Forcing const&, S const& η, forcing_history<S> const& h) {
-  return η * (std::is_same_v<Forcing, adaptive_precision> ? h.first_error : h.error);
-}
-
-// --- options -------------------------------------------------------------------------------------
-
 /// Options of mssn, imssn and gimssn. Forcing is a rule of newton/forcing.hpp.
 template <class S, class Forcing>
 struct modified_newton_options {
@@ -153,23 +142,15 @@ struct modified_newton_options {
   std::optional<S> step_length{};  ///< ρ > 0 of z = λ − ρ r; not given: β / σ_max
   S step_factor = S(1.9);          ///< β > 0; below 2 for gimssn, whose descent it guarantees
   index max_inner = 1000;          ///< inner iterations a step at most
-  index refresh = 50;              ///< inner iterations after which a step computes r anew even
-                                   ///< where it could be kept; 0: never
   index patience = 100;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
-  spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
-
   [[gnu::cold]] void validate() const {
     forcing.validate();
     if (step_length) detail::check_positive("step_length", *step_length);
     detail::check_positive("step_factor", step_factor);
     if (max_inner < 1) throw bad_input("max_inner", detail::show(max_inner), "a number >= 1");
-    if (refresh < 0) throw bad_input("refresh", detail::show(refresh), "a number >= 0");
     if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-    spectrum.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// An iterate λ that has left Λ: the state's x is then P_Λ(λ).
 template <class V>
@@ -179,14 +160,7 @@ struct outside_point {
   index since_refresh = 0;  ///< steps since r was computed from λ
   bool in_use = false;      ///< false: λ is the state's x
 
-  explicit outside_point(V const& prototype)
-      : x(like(prototype, slant::local(prototype).size())), r(x) {}
-};
-
-/// Methods that stay in Λ need none.
-struct never_outside {
-  template <class V>
-  explicit never_outside(V const&) {}
+  outside_point(V const& prototype, index n) : x(like(prototype, n)), r(x) {}
 };
 
 /// State of mssn, imssn and gimssn for a separable_qp of type QP and the inner iterations Inner.
@@ -194,12 +168,10 @@ template <class QP, class Inner>
 struct modified_newton_state : gradient_point<QP> {
   using typename gradient_point<QP>::vector_type;
   using typename gradient_point<QP>::scalar;
-  using outside_type =
-      std::conditional_t<Inner::stays_inside, never_outside, outside_point<vector_type>>;
 
   vector_type φ;                                 ///< r on the face; between steps scratch
   conjugate_directions<vector_type> directions;  ///< p, Ap, pᵀAp; p vanishes off the face
-  outside_type outside;                          ///< λ, where it is not x
+  outside_point<vector_type> outside;            ///< λ, where it is not x
   recession_watch<vector_type> recession;        ///< looks for descent without end
   progress_watch<scalar> progress;               ///< looks for steps that get nowhere
   face_t<typename QP::set_type, local_t<vector_type>> face;  ///< of the last step; free blocks: 𝒜
@@ -215,7 +187,7 @@ struct modified_newton_state : gradient_point<QP> {
       : gradient_point<QP>(qp, x0),
         φ(like(x0, qp.size())),
         directions(x0),
-        outside(x0),
+        outside(x0, Inner::stays_inside ? 0 : qp.size()),
         recession(x0, declares_positive_definite<typename QP::operator_type> ? 0 : qp.size()) {}
 
   [[nodiscard, gnu::cold]] std::string reason() const {
@@ -238,30 +210,14 @@ struct modified_newton_state : gradient_point<QP> {
   }
 };
 
-// --- problem -------------------------------------------------------------------------------------
-
-namespace detail {
-
-template <class Inner, class Forcing>
-struct modified_newton_types {
-  template <class QP>
-  using state = modified_newton_state<QP, Inner>;
-  template <class S>
-  using options = modified_newton_options<S, Forcing>;
-};
-
-}  // namespace detail
-
 /// A problem that lacks something ends here; mssn, imssn and gimssn say what it is.
 template <class QP, class Start, class Inner, class Forcing>
 class modified_newton : public detail::refused_program<
-                            QP, detail::modified_newton_types<Inner, Forcing>::template state,
-                            detail::modified_newton_types<Inner, Forcing>::template options> {
+                            QP, modified_newton_state<std::remove_cvref_t<QP>, Inner>,
+                            modified_newton_options<detail::program_scalar_t<QP>, Forcing>> {
  public:
   using modified_newton::refused_method::refused_method;
 };
-
-// --- method --------------------------------------------------------------------------------------
 
 /// The frame of mssn, imssn and gimssn. Start and Inner are of the kinds above,
 /// Forcing is a rule of newton/forcing.hpp. Requires: psd_operator (A positive definite on the
@@ -317,7 +273,9 @@ class modified_newton<QP, Start, Inner, Forcing> {
     s.face.assign(qp_.get().set(), slant::local(s.projected));
     scalar const η = s.forcing.next(options_.forcing);
     start_on_face(s);
-    minimise(s, inner_accuracy(options_.forcing, η, s.forcing));
+    // The η of the documents falls with err^(k)/err^(0) [K (3.1°)], that of other rules does not.
+    constexpr bool falls = std::is_same_v<Forcing, adaptive_precision>;
+    minimise(s, η * (falls ? s.forcing.first_error : s.forcing.error));
     measure(s);
     s.forcing.record(s.reduced_gradient_norm);
     ++s.iteration;
@@ -337,6 +295,8 @@ class modified_newton<QP, Start, Inner, Forcing> {
 
  private:
   static constexpr bool definite = declares_positive_definite<typename problem::operator_type>;
+  /// Inner iterations after which a step computes r anew even where it could be kept.
+  static constexpr index most_updates = 50;
 
   void begin_newton(state_type& s, bool solved) const {
     s.face.assign(qp_.get().set(), slant::local(s.x));
@@ -361,7 +321,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
   void start_on_face(state_type& s) const {
     Start::place(s);
     bool const stays = slant::everywhere(s.x, vectors::equal(s.trial, s.x));
-    if (stays && (options_.refresh == 0 || s.since_refresh < options_.refresh)) return;
+    if (stays && s.since_refresh < most_updates) return;
     std::swap(s.x, s.trial);
     compute_gradient(s);
   }
@@ -375,8 +335,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
   /// it would go on to fall below the rounding errors of r, until its squares vanish.
   void minimise(state_type& s, scalar const& accuracy) const {
     auto const& qp = qp_.get();
-    scalar const noise =
-        std::numeric_limits<scalar>::epsilon() / scalar(4) * (s.size_of_b + norm(s.r));
+    scalar const noise = detail::epsilon<scalar>() / scalar(4) * (s.size_of_b + norm(s.r));
     scalar const size = std::max<scalar>(accuracy, s.unit * noise);
     s.directions.live = false;
     s.inner_iterations = 0;
@@ -463,7 +422,7 @@ class modified_newton<QP, Start, Inner, Forcing> {
   }
 
   void set_step_length(state_type& s) const {
-    s.σ = s.set_step_length(qp_.get(), options_, scalar(1));
+    s.σ = s.set_step_length(qp_.get(), options_.step_length, scalar(1));
     if (options_.step_length) return;
     s.step_length *= options_.step_factor;
     if (!detail::is_finite(s.step_length)) {
@@ -490,7 +449,6 @@ using mssn_options = modified_newton_options<S, fixed_forcing>;
 /// is P_Λ of them. Requires what kprgp does. Statuses of its own: see imssn.
 template <class QP>
 class mssn : public modified_newton<QP, frozen_start, unlimited_cg, fixed_forcing> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -522,7 +480,6 @@ using imssn_options = modified_newton_options<S, adaptive_precision>;
 /// definite on a face).
 template <class QP>
 class imssn : public modified_newton<QP, frozen_start, unlimited_cg, adaptive_precision> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -542,16 +499,12 @@ imssn(QP&&, imssn_options<detail::program_scalar_t<QP>> = {}) -> imssn<kept_t<QP
 //
 // Known weakness: on a curved boundary a sliding block moves only by the gradient steps (3.2°).
 
-template <class S>
-using gimssn_options = modified_newton_options<S, adaptive_precision>;
-
 /// GIMSSN for a separable_qp: solve(gimssn{qp}, x0, reduced_gradient_below(1e-8) || at_most(500)).
 /// All iterates are in Λ. Requires what kprgp does. ρ < 2/σ_max is insisted on, unless step_length
 /// is given. Statuses of its own: those of imssn, and unbounded (q decreases for ever along
 /// −state.directions.p); breakdown where A was seen not to be semidefinite.
 template <class QP>
 class gimssn : public modified_newton<QP, projected_start, feasible_cg, adaptive_precision> {
-  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -559,6 +512,6 @@ class gimssn : public modified_newton<QP, projected_start, feasible_cg, adaptive
 };
 
 template <class QP>
-gimssn(QP&&, gimssn_options<detail::program_scalar_t<QP>> = {}) -> gimssn<kept_t<QP>>;
+gimssn(QP&&, imssn_options<detail::program_scalar_t<QP>> = {}) -> gimssn<kept_t<QP>>;
 
 }  // namespace slant

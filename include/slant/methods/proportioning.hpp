@@ -31,27 +31,25 @@
 
 namespace slant {
 
-// --- options -------------------------------------------------------------------------------------
-
-/// Which blocks count as free when a face is chosen.
-enum class active_set_rule : unsigned char {
-  boundary,  ///< those in which x is not on the boundary: f_i < 0 [K §3.1.1]
-  semismooth  ///< those in which P_Λ(x − α̃ r) is not: the sets of semismooth Newton [K (60), (61)]
-};
-
-/// Options of kprgp.
+/// Options of kprgp, qpq and qpc.
 template <class S>
 struct kprgp_options {
-  S proportioning = S(1);  ///< Γ > 0 of [K (33)]: large keeps the face, small releases early
+  S proportioning = S(1);    ///< Γ > 0 of [K (33)]: large keeps the face, small releases early
+  S face_accuracy = S(0.1);  ///< of qpc, in [0, 1): CG goes on until ‖φ‖ is this fraction of its
+                             ///< first size on the face, and of ‖β‖
   std::optional<S> step_length{};  ///< α̃ in (0, 2/σ_max); not given: see krylov/spectrum.hpp
   S step_factor = S(1.9);          ///< in (0, 2), of that step; the bricks need half the steps of 1
-  active_set_rule active_sets = active_set_rule::boundary;  ///< `semismooth` is AS-S [K Ex 5]
+  /// Blocks count as free if P_Λ(x − α̃ r) is not on the boundary, in the sets of semismooth Newton
+  /// [K (60), (61)], as for AS-S [K Ex 5]; else if x is not: f_i < 0 [K §3.1.1].
+  bool semismooth_sets = false;
   index refresh = 50;     ///< CG steps after which r = A x − b is recomputed; 0: never
   index patience = 1000;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
   spectral_bound_options spectrum{};  ///< how σ_max is bounded, if it is needed
 
   [[gnu::cold]] void validate() const {
     detail::check_positive("proportioning", proportioning);
+    detail::check_option("face_accuracy", face_accuracy,
+                         face_accuracy >= S(0) && face_accuracy < S(1), "a number in [0, 1)");
     if (step_length) detail::check_positive("step_length", *step_length);
     detail::check_option("step_factor", step_factor, step_factor > S(0) && step_factor < S(2),
                          "a number in (0, 2)");
@@ -60,8 +58,6 @@ struct kprgp_options {
     spectrum.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// The three steps of KPRGP, QPQ and QPC.
 enum class kprgp_step : unsigned char { conjugate_gradient, expansion, proportioning };
@@ -102,16 +98,13 @@ struct kprgp_state : gradient_point<QP> {
   }
 };
 
-// --- refusal -------------------------------------------------------------------------------------
-
 /// A problem that lacks something ends here; kprgp, qpq and qpc say what it is.
 template <class QP, class Rule>
-class proportioning : public detail::refused_program<QP, kprgp_state, Rule::template options> {
+class proportioning : public detail::refused_program<QP, kprgp_state<std::remove_cvref_t<QP>>,
+                                                     kprgp_options<detail::program_scalar_t<QP>>> {
  public:
   using proportioning::refused_method::refused_method;
 };
-
-// --- method --------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -122,7 +115,7 @@ class proportioning_steps {
   using problem = std::remove_cvref_t<QP>;
   using vector_type = typename problem::vector_type;
   using scalar = typename problem::scalar;
-  using options = typename Rule::template options<scalar>;
+  using options = kprgp_options<scalar>;
   using state_type = kprgp_state<problem>;
 
   /// Throws bad_input for options out of range.
@@ -183,7 +176,8 @@ class proportioning_steps {
     if (step.end == feasible_step_end::endless) {
       bool descent = false;
       if constexpr (!definite) {
-        descent = step.flat && is_descent(step.slope, s.directions.p, gradient_noise(s)) &&
+        descent = step.flat &&
+                  is_descent(step.slope, s.directions.p, scalar(s.size_of_b + norm(s.r))) &&
                   confirm_descent(qp, s, most_confirming_steps);
       }
       s.status = descent ? status::unbounded : status::stalled;
@@ -245,9 +239,8 @@ class proportioning_steps {
 
   /// A new face; the next direction is φ itself.
   void restart(state_type& s) const {
-    bool const semismooth = options_.active_sets == active_set_rule::semismooth;
     s.reduce(qp_.get());
-    s.face.assign(qp_.get().set(), slant::local(semismooth ? s.projected : s.x));
+    s.face.assign(qp_.get().set(), slant::local(options_.semismooth_sets ? s.projected : s.x));
     s.directions.live = false;
     Rule::weigh(qp_.get(), s);
     s.φr_at_restart = s.φr;
@@ -277,9 +270,6 @@ class proportioning_steps {
     if (s.status == status::running) detail::judge_reduced_gradient(s);
   }
 
-  /// At least max(‖b‖, ‖A x‖) / unit.
-  static scalar gradient_noise(state_type const& s) { return s.size_of_b + norm(s.r); }
-
   void note_progress(state_type& s) const {
     if (s.status != status::running) return;
     auto const energy = [&] { return s.energy(qp_.get()); };
@@ -301,7 +291,7 @@ auto proportioning_steps<QP, Rule>::start(vector_type const& x0) const -> state_
   auto const& qp = qp_.get();
   detail::check_start_in_set(x0, qp_.get().b());
   state_type s(qp, x0);
-  s.σ = s.set_step_length(qp, options_, options_.step_factor);
+  s.σ = s.set_step_length(qp, options_.step_length, options_.step_factor, options_.spectrum);
   bool const solved = s.begin(qp, x0);
   restart(s);
   settle(s);

@@ -55,14 +55,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
-
-// --- options -------------------------------------------------------------------------------------
 
 /// Options of schur_contact.
 template <scalar S = double>
@@ -89,8 +86,6 @@ struct schur_contact_options {
   }
 };
 
-// --- state ---------------------------------------------------------------------------------------
-
 /// What the last step did: a conjugate gradient step to the minimum along q, one to the first
 /// constraint, or one beyond it along the boundary. Rows may have been released before it.
 enum class schur_contact_step : unsigned char { none, conjugate_gradient, blocked, projected };
@@ -108,11 +103,11 @@ struct schur_contact_state {
 
   vector_type x;                                 ///< u, with B u ≤ c
   vector_type r;                                 ///< f − K u, in multiples of unit
-  vector_type φ;                                 ///< V Vᵀr
-  vector_type d;                                 ///< r − Bᵀλ, the projected gradient, as r
-  vector_type trial;                             ///< scratch
-  vector_type correction;                        ///< scratch
-  vector_type descent;                           ///< direction without end, if unbounded
+  vector_type φ = r;                             ///< V Vᵀr
+  vector_type d = r;                             ///< r − Bᵀλ, the projected gradient, as r
+  vector_type trial = r;                         ///< scratch
+  vector_type correction = r;                    ///< scratch
+  vector_type descent = r;                       ///< direction without end, if unbounded
   row_vector λ;                                  ///< multipliers, see multipliers()
   row_vector row_units;                          ///< in which the rows of B are kept
   row_slacks<scalar> rows;                       ///< c − B u and J
@@ -131,8 +126,8 @@ struct schur_contact_state {
   bool regular = false;      ///< K has no kernel on this face
   bool updated = false;      ///< x has moved since slacks were measured at it
 
-  scalar computed_norm = std::numeric_limits<scalar>::infinity();  ///< when it last seemed stalled
-  schur_contact_trouble trouble = schur_contact_trouble::none;     ///< see reason()
+  scalar computed_norm = detail::infinity<scalar>();            ///< when it last seemed stalled
+  schur_contact_trouble trouble = schur_contact_trouble::none;  ///< see reason()
 
   index projector_applications = 0;  ///< of Q, or of U(UᵀKU)⁻¹Uᵀ
   index releases = 0;                ///< how often rows were released
@@ -143,11 +138,6 @@ struct schur_contact_state {
   schur_contact_state(P const& p, vector_type const& x0)
       : x(x0),
         r(like(x0, p.size())),
-        φ(r),
-        d(r),
-        trial(r),
-        correction(r),
-        descent(r),
         λ(row_vector::Zero(p.rows().count())),
         row_units(p.rows().units()),
         rows(p.rows()),
@@ -176,187 +166,6 @@ struct schur_contact_state {
                             "semidefinite"});
   }
 };
-
-}  // namespace slant
-
-namespace slant::detail {
-
-// --- parts ---------------------------------------------------------------------------------------
-//
-// Parts C and D of the Schur complement contact algorithm [D §5]: the residual, and what the active
-// set makes of it.
-
-/// (vii).
-template <class P>
-void compute_residual(P const& p, schur_contact_state<P>& s) {
-  using scalar = typename P::scalar;
-  slant::apply(p.k(), s.x, s.r, s.k_workspace);
-  ++s.work.operator_applications;
-  vectors::difference(p.f(), s.r, s.r);
-  vectors::scale(scalar(1) / s.unit, s.r);
-}
-/// (vi), (vii).
-template <class P>
-void minimise_inside(P const& p, schur_contact_state<P>& s) {
-  p.projection().add_minimiser(s.unit, s.r, s.x, s.q_workspace);
-  ++s.projector_applications;
-  compute_residual(p, s);
-}
-/// (viii), (x): φ, d, λ of r, and what follows from them for the status.
-template <class P>
-void note_contact_residual(P const& p, schur_contact_state<P>& s) {
-  using scalar = typename P::scalar;
-  auto const& rows = p.rows();
-  s.rows.active.project_on_kernel(rows, s.r, s.φ);
-  s.rows.active.project_on_cone(rows, s.r, s.d, s.λ);
-  // What both are differences of has rounding errors of this size; along such a φ, which is in no
-  // kernel, a step can be long.
-  scalar const zero = scalar(16) * std::numeric_limits<scalar>::epsilon() * norm(s.r);
-  s.φ_norm = norm(s.φ);
-  if (s.φ_norm <= zero) {
-    vectors::set_zero(s.φ);
-    s.φ_norm = scalar(0);
-  }
-  scalar const size = norm(s.d);
-  s.residual_norm = s.unit * size;
-  vectors::difference(s.d, s.φ, s.trial);
-  s.β_norm = size > zero ? norm(s.trial) : scalar(0);
-  if (size <= zero) s.status = status::converged;
-  if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
-}
-
-/// Slacks, J and r of s.x from s.x alone. What rounding errors of iterates far away have made of it
-/// is put right: rows that are violated by more than those of x itself, or that have left their
-/// bound while they were in J. u is minimised over U again if `inside`, and
-/// where that has moved x.
-template <class P>
-void measure_anew(P const& p, schur_contact_state<P>& s, bool inside) {
-  s.updated = false;
-  s.directions.live = false;
-  s.rows.forget();
-  s.rows.measure(p.rows(), s.x);
-  bool const sound = everywhere(s.x, s.rows.is_feasible() && s.rows.are_tight(p.rows(), s.x));
-  if (!sound) {
-    (void)s.rows.active.project_on_set(p.rows(), s.x, s.λ);
-    s.rows.measure(p.rows(), s.x);
-    s.rows.take_tight(p.rows());
-    s.regular = false;
-  }
-  compute_residual(p, s);
-  note_contact_residual(p, s);
-  if (sound && !inside) return;
-  minimise_inside(p, s);
-  note_contact_residual(p, s);
-}
-
-// --- kernel --------------------------------------------------------------------------------------
-//
-// Where the Schur complement contact algorithm cannot go on by conjugate gradients: directions of
-// the kernel of K, and progress that has ended.
-
-/// Replaces q by a direction of the kernel near it in which j falls, if there is one.
-template <class P>
-bool finds_kernel(P const& p, schur_contact_state<P>& s) {
-  using scalar = typename P::scalar;
-  auto& q = s.directions;
-  kernel_projector<scalar> const c(p.rows(), s.rows.active);
-  no_workspace none;
-  auto const search = s.flat.split(q, p.k(), s.k_workspace, c, none, p.projection(), s.q_workspace,
-                                   global_size(s.x));
-  s.work.operator_applications += search.products;
-  s.projector_applications += search.projections;
-  s.regular = true;  // until a row leaves
-  if (!search.found) return false;
-  scalar const slope = inner_product(s.r, q.q);
-  scalar const size = (s.residual_scale + s.flat.force(s.x)) / s.unit;
-  using std::abs;
-  if (!is_descent(scalar(abs(slope)), q.q, size)) {
-    s.flat.restore(q);
-    return false;
-  }
-  q.live = false;
-  s.regular = false;
-  if (slope >= scalar(0)) return true;
-  vectors::scale(scalar(-1), q.q);
-  vectors::scale(scalar(-1), q.Ap);
-  return true;
-}
-
-/// Stalled if neither the residual nor the energy has fallen for `patience` steps.
-template <class P>
-void note_progress(P const& p, schur_contact_state<P>& s, index patience) {
-  using scalar = typename P::scalar;
-  auto const energy = [&] {
-    scalar const of_load = inner_product(p.f(), s.x);
-    scalar const of_rest = s.unit * inner_product(s.r, s.x);
-    using std::abs;
-    return std::pair(
-        scalar(-(of_load + of_rest) / scalar(2)),
-        scalar(scalar(8) * std::numeric_limits<scalar>::epsilon() * (abs(of_load) + abs(of_rest))));
-  };
-  if (s.progress.stalled(s.iteration, s.residual_norm, patience, energy)) {
-    s.trouble = schur_contact_trouble::patience;
-    s.status = status::stalled;
-  }
-}
-
-}  // namespace slant::detail
-
-namespace slant {
-
-// --- projected search ----------------------------------------------------------------------------
-//
-// More than one row at a time [D §6; Calamai, Moré 1987]: where the step α to the minimum along q
-// leaves B u ≤ c, the points
-//
-//     P(u + t q),   t = α, α/2, … > α₁,     P onto { B u ≤ c },
-//
-// are tried before the step α₁ to the first constraint. P changes no unknown of U, which follow by
-// Q: with e = P(u + t q) − (u + t q) the trial point is u + t q + Q e, and its residual r − t K q −
-// K Q e is again orthogonal to U. It is taken if j falls by as much as it would with α₁, and if no
-// row of J has left its bound: J then grows, as it does with α₁, and what is known of the finite
-// termination remains. One product and one application of Q for each. Directions that are flat to
-// half of the digits are not followed so far.
-
-/// Moves s to the first trial point that is good enough, with its r and J; false if there is none.
-template <class P>
-[[nodiscard]] bool projected_search(P const& p, schur_contact_state<P>& s, index trials,
-                                    typename P::scalar const& α, typename P::scalar const& α1) {
-  using scalar = typename P::scalar;
-  auto const& q = s.directions;
-  if (trials == 0 || s.flat.is_nearly_flat(q)) return false;
-  scalar const gain = α1 * (inner_product(s.r, q.q) - α1 * q.curvature / scalar(2));
-  scalar t = α;
-  for (index i = 0; i < trials && t > α1; ++i, t /= scalar(2)) {
-    vectors::waxpy(s.unit * t, q.q, s.x, s.trial);
-    vectors::copy(s.trial, s.d);
-    s.rows.note_sizes(p.rows(), s.trial);
-    (void)s.rows.active.project_on_set(p.rows(), s.trial, s.λ);
-    if (!everywhere(s.x, s.rows.are_tight(p.rows(), s.trial))) continue;
-    vectors::difference(s.trial, s.d, s.d);
-    vectors::scale(scalar(1) / s.unit, s.d);
-    slant::apply(p.projection(), s.d, s.correction, s.q_workspace);
-    slant::apply(p.k(), s.correction, s.d, s.k_workspace);
-    ++s.work.operator_applications;
-    ++s.projector_applications;
-    vectors::axpy(t, q.q, s.correction);
-    vectors::difference(s.r, s.d, s.d);
-    vectors::axpy(-t, q.Ap, s.d);
-    vectors::sum(s.r, s.d, s.trial);
-    if (!(inner_product(s.correction, s.trial) / scalar(2) >= gain)) continue;
-    vectors::axpy(s.unit, s.correction, s.x);
-    vectors::copy(s.d, s.r);
-    s.updated = true;
-    s.rows.measure(p.rows(), s.x);
-    s.rows.take_tight(p.rows());
-    s.directions.live = false;
-    s.last_step = schur_contact_step::projected;
-    return true;
-  }
-  return false;
-}
-
-// --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(schur_contact{problem}, u0, residual_below(1e-10) ||
 /// at_most(5000)). Begins at the point of B u ≤ c nearest to u0. Statuses of its own: converged (d
@@ -403,8 +212,8 @@ class schur_contact<P> {
     vectors::difference(p.f(), s.r, s.r);
     vectors::scale(scalar(1) / s.unit, s.r);
     s.rows.take_tight(p.rows());
-    detail::minimise_inside(p, s);
-    detail::note_contact_residual(p, s);
+    minimise_inside(s);
+    note_contact_residual(s);
     return s;
   }
 
@@ -413,7 +222,7 @@ class schur_contact<P> {
     if (s.β_norm > scalar(0) && s.φ_norm <= Γ(s) * s.β_norm) release(s);
     if (s.status == status::running && s.φ_norm == scalar(0)) stall(s);
     if (s.status == status::running) conjugate_step(s);
-    if (s.status == status::running) detail::note_progress(p_.get(), s, options_.patience);
+    if (s.status == status::running) note_progress(s);
     if (s.status == status::stalled) look_again(s);
     ++s.iteration;
   }
@@ -423,17 +232,182 @@ class schur_contact<P> {
   bool refresh(state_type& s) const {
     if (!s.updated) return false;
     s.status = status::running;
-    detail::measure_anew(p_.get(), s, false);
+    measure_anew(s, false);
     return true;
   }
 
  private:
-  static constexpr scalar infinity = std::numeric_limits<scalar>::infinity();
+  static constexpr scalar infinity = detail::infinity<scalar>();
+
+  // --- parts -------------------------------------------------------------------------------------
+  //
+  // Parts C and D of the Schur complement contact algorithm [D §5]: the residual, and what the
+  // active set makes of it.
+
+  /// (vii).
+  void compute_residual(state_type& s) const {
+    auto const& p = p_.get();
+    slant::apply(p.k(), s.x, s.r, s.k_workspace);
+    ++s.work.operator_applications;
+    vectors::difference(p.f(), s.r, s.r);
+    vectors::scale(scalar(1) / s.unit, s.r);
+  }
+  /// (vi), (vii).
+  void minimise_inside(state_type& s) const {
+    auto const& p = p_.get();
+    p.projection().add_minimiser(s.unit, s.r, s.x, s.q_workspace);
+    ++s.projector_applications;
+    compute_residual(s);
+  }
+  /// (viii), (x): φ, d, λ of r, and what follows from them for the status.
+  void note_contact_residual(state_type& s) const {
+    auto const& p = p_.get();
+    auto const& rows = p.rows();
+    s.rows.active.project_on_kernel(rows, s.r, s.φ);
+    s.rows.active.project_on_cone(rows, s.r, s.d, s.λ);
+    // What both are differences of has rounding errors of this size; along such a φ, which is in no
+    // kernel, a step can be long.
+    scalar const zero = scalar(16) * detail::epsilon<scalar>() * norm(s.r);
+    s.φ_norm = norm(s.φ);
+    if (s.φ_norm <= zero) {
+      vectors::set_zero(s.φ);
+      s.φ_norm = scalar(0);
+    }
+    scalar const size = norm(s.d);
+    s.residual_norm = s.unit * size;
+    vectors::difference(s.d, s.φ, s.trial);
+    s.β_norm = size > zero ? norm(s.trial) : scalar(0);
+    if (size <= zero) s.status = status::converged;
+    if (!detail::is_finite(s.residual_norm)) s.status = status::breakdown;
+  }
+
+  /// Slacks, J and r of s.x from s.x alone. What rounding errors of iterates far away have made of
+  /// it is put right: rows that are violated by more than those of x itself, or that have left
+  /// their bound while they were in J. u is minimised over U again if `inside`, and where that has
+  /// moved x.
+  void measure_anew(state_type& s, bool inside) const {
+    auto const& p = p_.get();
+    s.updated = false;
+    s.directions.live = false;
+    s.rows.forget();
+    s.rows.measure(p.rows(), s.x);
+    bool const sound = everywhere(s.x, s.rows.is_feasible() && s.rows.are_tight(p.rows(), s.x));
+    if (!sound) {
+      (void)s.rows.active.project_on_set(p.rows(), s.x, s.λ);
+      s.rows.measure(p.rows(), s.x);
+      s.rows.take_tight(p.rows());
+      s.regular = false;
+    }
+    compute_residual(s);
+    note_contact_residual(s);
+    if (sound && !inside) return;
+    minimise_inside(s);
+    note_contact_residual(s);
+  }
+
+  // --- kernel ------------------------------------------------------------------------------------
+  //
+  // Where the Schur complement contact algorithm cannot go on by conjugate gradients: directions of
+  // the kernel of K, and progress that has ended.
+
+  /// Replaces q by a direction of the kernel near it in which j falls, if there is one.
+  bool finds_kernel(state_type& s) const {
+    auto const& p = p_.get();
+    auto& q = s.directions;
+    detail::kernel_projector<scalar> const c(p.rows(), s.rows.active);
+    no_workspace none;
+    auto const search = s.flat.split(q, p.k(), s.k_workspace, c, none, p.projection(),
+                                     s.q_workspace, global_size(s.x));
+    s.work.operator_applications += search.products;
+    s.projector_applications += search.projections;
+    s.regular = true;  // until a row leaves
+    if (!search.found) return false;
+    scalar const slope = inner_product(s.r, q.q);
+    scalar const size = (s.residual_scale + s.flat.force(s.x)) / s.unit;
+    using std::abs;
+    if (!is_descent(scalar(abs(slope)), q.q, size)) {
+      s.flat.restore(q);
+      return false;
+    }
+    q.live = false;
+    s.regular = false;
+    if (slope >= scalar(0)) return true;
+    vectors::scale(scalar(-1), q.q);
+    vectors::scale(scalar(-1), q.Ap);
+    return true;
+  }
+
+  /// Stalled if neither the residual nor the energy has fallen for `patience` steps.
+  void note_progress(state_type& s) const {
+    auto const energy = [&] {
+      scalar const of_load = inner_product(p_.get().f(), s.x);
+      scalar const of_rest = s.unit * inner_product(s.r, s.x);
+      using std::abs;
+      return std::pair(
+          scalar(-(of_load + of_rest) / scalar(2)),
+          scalar(scalar(8) * detail::epsilon<scalar>() * (abs(of_load) + abs(of_rest))));
+    };
+    if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience, energy)) {
+      s.trouble = schur_contact_trouble::patience;
+      s.status = status::stalled;
+    }
+  }
+
+  // --- projected search --------------------------------------------------------------------------
+  //
+  // More than one row at a time [D §6; Calamai, Moré 1987]: where the step α to the minimum along q
+  // leaves B u ≤ c, the points
+  //
+  //     P(u + t q),   t = α, α/2, … > α₁,     P onto { B u ≤ c },
+  //
+  // are tried before the step α₁ to the first constraint. P changes no unknown of U, which follow
+  // by Q: with e = P(u + t q) − (u + t q) the trial point is u + t q + Q e, and its residual r − t
+  // K q − K Q e is again orthogonal to U. It is taken if j falls by as much as it would with α₁,
+  // and if no row of J has left its bound: J then grows, as it does with α₁, and what is known of
+  // the finite termination remains. One product and one application of Q for each. Directions that
+  // are flat to half of the digits are not followed so far.
+
+  /// Moves s to the first trial point that is good enough, with its r and J; false if none is.
+  [[nodiscard]] bool projected_search(state_type& s, scalar const& α, scalar const& α1) const {
+    auto const& p = p_.get();
+    index const trials = options_.projected_trials;
+    auto const& q = s.directions;
+    if (trials == 0 || s.flat.is_nearly_flat(q)) return false;
+    scalar const gain = α1 * (inner_product(s.r, q.q) - α1 * q.curvature / scalar(2));
+    scalar t = α;
+    for (index i = 0; i < trials && t > α1; ++i, t /= scalar(2)) {
+      vectors::waxpy(s.unit * t, q.q, s.x, s.trial);
+      vectors::copy(s.trial, s.d);
+      s.rows.note_sizes(p.rows(), s.trial);
+      (void)s.rows.active.project_on_set(p.rows(), s.trial, s.λ);
+      if (!everywhere(s.x, s.rows.are_tight(p.rows(), s.trial))) continue;
+      vectors::difference(s.trial, s.d, s.d);
+      vectors::scale(scalar(1) / s.unit, s.d);
+      slant::apply(p.projection(), s.d, s.correction, s.q_workspace);
+      slant::apply(p.k(), s.correction, s.d, s.k_workspace);
+      ++s.work.operator_applications;
+      ++s.projector_applications;
+      vectors::axpy(t, q.q, s.correction);
+      vectors::difference(s.r, s.d, s.d);
+      vectors::axpy(-t, q.Ap, s.d);
+      vectors::sum(s.r, s.d, s.trial);
+      if (!(inner_product(s.correction, s.trial) / scalar(2) >= gain)) continue;
+      vectors::axpy(s.unit, s.correction, s.x);
+      vectors::copy(s.d, s.r);
+      s.updated = true;
+      s.rows.measure(p.rows(), s.x);
+      s.rows.take_tight(p.rows());
+      s.directions.live = false;
+      s.last_step = schur_contact_step::projected;
+      return true;
+    }
+    return false;
+  }
 
   /// See the top of this file; what is below the least value is rounding error of φ.
   scalar Γ(state_type const& s) const {
     using std::ldexp;
-    scalar const least = scalar(4096) * std::numeric_limits<scalar>::epsilon();
+    scalar const least = scalar(4096) * detail::epsilon<scalar>();
     int const halvings = static_cast<int>(std::clamp<index>(s.releases - 8, 0, 2000));
     return std::max<scalar>(least, ldexp(options_.release, -halvings));
   }
@@ -445,8 +419,8 @@ class schur_contact<P> {
     s.directions.live = false;
     s.regular = false;
     ++s.releases;
-    detail::minimise_inside(p_.get(), s);
-    detail::note_contact_residual(p_.get(), s);
+    minimise_inside(s);
+    note_contact_residual(s);
   }
 
   /// (xviii), (xiii).
@@ -477,8 +451,7 @@ class schur_contact<P> {
     };
     // Before the face is given up a kernel is looked for also where none was found before.
     bool const last = leads_nowhere();
-    bool const flat =
-        (last || !s.regular) && s.flat.is_nearly_flat(q) && detail::finds_kernel(p, s);
+    bool const flat = (last || !s.regular) && s.flat.is_nearly_flat(q) && finds_kernel(s);
     if (last && !flat) {
       give_up_face(s);
       return;
@@ -487,7 +460,7 @@ class schur_contact<P> {
     // A flat q has rounding errors everywhere, also where it should not move at all.
     using std::pow;
     scalar const noise =
-        flat ? pow(std::numeric_limits<scalar>::epsilon(), scalar(0.75)) * norm(q.q) : scalar(0);
+        flat ? pow(detail::epsilon<scalar>(), scalar(0.75)) * norm(q.q) : scalar(0);
     scalar const α1 = minimum(s.x, s.rows.first_constraint(p.rows(), q.q, s.unit, noise));
     if (α < α1) {
       advance(s, α);
@@ -496,13 +469,13 @@ class schur_contact<P> {
       s.status = status::unbounded;
       vectors::copy(q.q, s.descent);
       return;
-    } else if (flat || !projected_search(p, s, options_.projected_trials, α, α1)) {
+    } else if (flat || !projected_search(s, α, α1)) {
       advance(s, α1);
       s.rows.take_blocking(p.rows(), α1);
       q.live = false;
       s.last_step = schur_contact_step::blocked;
     }
-    detail::note_contact_residual(p_.get(), s);
+    note_contact_residual(s);
   }
   /// (xv), (xvi).
   void advance(state_type& s, scalar const& α) const {
@@ -529,7 +502,7 @@ class schur_contact<P> {
   void look_again(state_type& s) const {
     auto const trouble = s.trouble;
     s.status = status::running;
-    detail::measure_anew(p_.get(), s, true);
+    measure_anew(s, true);
     if (s.status != status::running) return;
     s.progress = {};
     if (!(s.residual_norm < s.computed_norm / scalar(2))) {

@@ -42,20 +42,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
 
-// --- problem -------------------------------------------------------------------------------------
-
 /// min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e: a problem for kprgp, and an affine space.
 template <class QP, class C>
 concept smalse_problem = kprgp_problem<QP> && affine_space<C, typename QP::vector_type>;
-
-// --- options -------------------------------------------------------------------------------------
 
 /// Options of smalse.
 template <class S = double>
@@ -63,30 +58,9 @@ struct smalse_options {
   /// ρ in multiples of σ_max(P A P); it does not grow. Measured with Total-FETI on bricks: 4 halves
   /// the outer steps and doubles the products of KPRGP.
   S penalty = S(1);
-  /// M₀ in multiples of ρ: inner problems until ‖r̃‖ ≤ M ‖G x − e‖. Of 0.3, 1 and 5 the first took
-  /// the least products, down to half of those of the last.
-  S balance = S(0.3);
-  S shrink = S(0.1);  ///< β in (0, 1): M ← β M if L has not grown enough
-  S precision = S(0.1);  ///< η in multiples of ‖P (b − A x̄)‖: ‖r̃‖ ≤ η at least, from the first on
-  index inner_steps = 5000;  ///< of one inner problem at most
-  index patience = 30;       ///< outer steps without progress that mean stalled: the error does not
-                             ///< fall, nor L rise
-  spectral_bound_options spectrum{};  ///< how σ_max(P A P) is bounded
-  kprgp_options<S> inner{};  ///< step_length, if not given: from σ, an upper bound of σ_max
 
-  [[gnu::cold]] void validate() const {
-    detail::check_positive("penalty", penalty);
-    detail::check_positive("balance", balance);
-    detail::check_positive("precision", precision);
-    detail::check_fraction("shrink", shrink);
-    if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
-    if (patience < 1) throw bad_input("patience", detail::show(patience), "at least 1");
-    spectrum.validate();
-    inner.validate();
-  }
+  [[gnu::cold]] void validate() const { detail::check_positive("penalty", penalty); }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -155,14 +129,11 @@ struct smalse_state {
   }
 };
 
-// --- refusal -------------------------------------------------------------------------------------
-
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class C>
 class smalse : public detail::refused_program<QP> {
   using problem = std::remove_cvref_t<QP>;
 
-  static_assert(detail::program_demands<problem>::told);
   static_assert(detail::active_set_demands<problem>::told);
   static_assert(!kprgp_problem<problem> ||
                     affine_space<std::remove_cvref_t<C>, typename detail::vector_of<problem>::type>,
@@ -199,7 +170,7 @@ template <class Set, class V>
                              V& projected) {
   using S = scalar_t<V>;
   S const distance = norm(w);
-  S last = std::numeric_limits<S>::infinity();
+  S last = detail::infinity<S>();
   S t(1);
   for (int k = 0; k <= 40; ++k, t *= S(2)) {
     vectors::waxpy(-t, w, x, y);
@@ -208,7 +179,7 @@ template <class Set, class V>
     vectors::scale(S(1) / distance, y);
     S const size = distance * norm(y);
     S const height = inner_product(w, y);
-    if (!(height > S(256) * std::numeric_limits<S>::epsilon() * size)) return false;
+    if (!(height > S(256) * detail::epsilon<S>() * size)) return false;
     vectors::difference(projected, x, y);
     S const moved = norm(y);
     if (moved == last) return true;
@@ -223,7 +194,7 @@ template <class Set, class C, class V>
   using S = scalar_t<V>;
   V point = x, last = x, ahead = x, w = x, y = x, projected = x;
   auto const Q = c.range_projector();
-  S shortest = std::numeric_limits<S>::infinity();
+  S shortest = detail::infinity<S>();
   index momentum = 0;
   for (index k = 1; k <= 4096; ++k) {
     slant::apply(Q, ahead, w);
@@ -235,7 +206,7 @@ template <class Set, class C, class V>
     vectors::subtract(c.nearest(), w);
     S const distance = norm(w);
     using std::sqrt;
-    if (!(distance > sqrt(std::numeric_limits<S>::epsilon()) * norm(point))) return false;
+    if (!(distance > sqrt(detail::epsilon<S>()) * norm(point))) return false;
     if ((k & (k - 1)) == 0 && separates(set, point, w, c.nearest(), y, projected)) return true;
     momentum = distance > shortest ? 0 : momentum + 1;
     shortest = std::min(shortest, distance);
@@ -246,8 +217,6 @@ template <class Set, class C, class V>
 }
 
 }  // namespace detail
-
-// --- method --------------------------------------------------------------------------------------
 
 /// The method at the top of this file: solve(smalse{qp, constraints}, x0,
 /// (reduced_gradient_below(1e-8) && feasibility_below(1e-8)) || at_most(100)); options last.
@@ -280,16 +249,14 @@ class smalse<QP, C> {
   [[nodiscard]] state_type start(vector_type const& x0) const {
     auto const& qp = qp_.get();
     auto const& c = constraints_.get();
-    detail::check_size("x0", index(slant::local(x0).size()), qp.size(), "the size of b,");
-    detail::check_finite("x0", x0);
-
+    detail::check_start_in_set(x0, qp.b());
     spectral_bound<scalar> bound{scalar(0), scalar(0), scalar(0), 0};
     if (!detail::is_one_point(c)) {
-      bound = largest_eigenvalue_bound(projected_hessian(qp.a(), c), x0, options_.spectrum);
+      bound = largest_eigenvalue_bound(projected_hessian(qp.a(), c), x0);
     }
     scalar const whole = detail::size_on_ones(qp.a(), x0);
     // P A P may consist of rounding errors of A; any penalty will do then.
-    bool const told = bound.ritz > scalar(32) * std::numeric_limits<scalar>::epsilon() * whole;
+    bool const told = bound.ritz > scalar(32) * detail::epsilon<scalar>() * whole;
     scalar const ρ = options_.penalty * (told ? bound.ritz : whole > scalar(0) ? whole : scalar(1));
     scalar const σ = std::max(bound.upper, ρ);  // of P A P + ρ Q: both act on spaces of their own
 
@@ -305,13 +272,13 @@ class smalse<QP, C> {
     state_type s{x0, ν, load.projected, b, ν, std::move(inner), workspace(c.range_projector(), x0)};
     s.σ = σ;
     s.ρ = ρ;
-    s.M = options_.balance * ρ;
+    s.M = balance * ρ;
     s.load = norm(load.projected);
     s.work = s.inner.work;
     s.work.setup_applications += bound.applications + 2;
     look(s);
     choose_multiplier(s, x0, load.opposed);
-    s.η = options_.precision * std::max(s.load, s.gradient_scale);
+    s.η = precision * std::max(s.load, s.gradient_scale);
     return s;
   }
 
@@ -321,12 +288,15 @@ class smalse<QP, C> {
     s.progress = {};
     s.is_slow = false;
     s.energy_unit = s.inner.unit;
-    s.M = options_.balance * s.ρ;
+    s.M = balance * s.ρ;
     slant::project(qp_.get().set(), slant::local(x), slant::local(s.inner.x));
     vectors::copy(ν, s.ν);
     form_linear_term(s);
     if (s.status != status::running) return;
-    restart(s);
+    auto const inner_problem = augmented(s.b, s.ρ);
+    inner_method(inner_problem, s.σ).resume(s.inner);
+    ++s.work.operator_applications;
+    s.resumed = true;
     look(s);
   }
 
@@ -363,13 +333,22 @@ class smalse<QP, C> {
  private:
   using inner_qp = detail::augmented_qp<problem, constraints>;
 
+  /// M₀ in multiples of ρ: inner problems until ‖r̃‖ ≤ M ‖G x − e‖. Of 0.3, 1 and 5 the first took
+  /// the least products, down to half of those of the last.
+  static constexpr scalar balance = scalar(0.3);
+  static constexpr scalar shrink = scalar(0.1);     // β: M ← β M if L has not grown enough
+  static constexpr scalar precision = scalar(0.1);  // η in multiples of ‖P (b − A x̄)‖
+  static constexpr index inner_steps = 5000;        // of one inner problem at most
+  /// Outer steps without progress that mean stalled: the error does not fall, nor L rise.
+  static constexpr index patience = 30;
+
   /// min L(·, ν, ρ) over Λ; refers to b.
   [[nodiscard]] inner_qp augmented(vector_type const& b, scalar const& ρ) const {
     return {augmented_hessian(qp_.get().a(), constraints_.get(), ρ), b, qp_.get().set()};
   }
   [[nodiscard]] auto inner_method(inner_qp const& qp, scalar const& σ) const {
-    auto own = options_.inner;
-    if (!own.step_length) own.step_length = own.step_factor / σ;
+    kprgp_options<scalar> own;
+    own.step_length = own.step_factor / σ;  // σ is an upper bound of σ_max
     return kprgp<inner_qp const&>{qp, own};
   }
 
@@ -377,14 +356,6 @@ class smalse<QP, C> {
     vectors::difference(s.projected_b, s.ν, s.b);
     vectors::axpy(s.ρ, constraints_.get().nearest(), s.b);
     if (!detail::is_finite(norm(s.b))) s.status = status::breakdown;
-  }
-
-  /// The inner method at s.inner.x with the linear term s.b.
-  void restart(state_type& s) const {
-    auto const inner_problem = augmented(s.b, s.ρ);
-    inner_method(inner_problem, s.σ).resume(s.inner);
-    ++s.work.operator_applications;
-    s.resumed = true;
   }
 
   void measure_offset(state_type& s, vector_type const& x) const {
@@ -424,10 +395,10 @@ class smalse<QP, C> {
       // Half of its digits may stay the same, as those of the error.
       using std::abs, std::sqrt;
       scalar const unit = s.inner.unit / s.energy_unit, L = s.lagrangian * unit;
-      scalar const share = sqrt(std::numeric_limits<scalar>::epsilon()) * abs(L);
+      scalar const share = sqrt(detail::epsilon<scalar>()) * abs(L);
       return std::pair<scalar, scalar>(-L, std::max<scalar>(s.lagrangian_noise * unit, share));
     };
-    if (s.progress.stalled(s.iteration, error, options_.patience, energy)) {
+    if (s.progress.stalled(s.iteration, error, patience, energy)) {
       s.status = status::stalled;
     }
   }
@@ -455,8 +426,7 @@ class smalse<QP, C> {
     s.comparable = !s.resumed;
     s.resumed = false;
     scalar const at_start = inner.reduced_gradient_norm;
-    while (inner.status == status::running &&
-           inner.iteration - steps_before < options_.inner_steps) {
+    while (inner.status == status::running && inner.iteration - steps_before < inner_steps) {
       measure_offset(s, inner.x);
       if (inner.reduced_gradient_norm <= wanted(s, at_start)) break;
       method.step(inner);
@@ -473,10 +443,9 @@ class smalse<QP, C> {
   /// of ‖r̃‖ takes the place of M ‖Q x − x̄‖.
   [[nodiscard]] scalar wanted(state_type const& s, scalar const& at_start) const {
     scalar const balanced = s.M * s.feasibility_norm, noise = s.inner.rounding();
-    scalar const least = scalar(64) * std::numeric_limits<scalar>::epsilon() * s.σ *
+    scalar const least = scalar(64) * detail::epsilon<scalar>() * s.σ *
                          (norm(s.inner.x) + norm(constraints_.get().nearest()));
-    scalar const most =
-        std::min<scalar>(s.η, balanced > least ? balanced : options_.shrink * at_start);
+    scalar const most = std::min<scalar>(s.η, balanced > least ? balanced : shrink * at_start);
     return noise < s.η ? std::max(most, noise) : most;
   }
 
@@ -492,7 +461,7 @@ class smalse<QP, C> {
     scalar const now = q + constant;
     scalar const growth =
         s.ρ * s.feasibility_norm * (s.feasibility_norm / s.inner.unit) / scalar(2);
-    if (s.comparable && now < s.lagrangian + growth - noise) s.M *= options_.shrink;
+    if (s.comparable && now < s.lagrangian + growth - noise) s.M *= shrink;
     s.lagrangian = now;
     s.lagrangian_noise = noise;
   }

@@ -146,12 +146,8 @@ template <equality_constrained_program P>
       // In these unknowns they may depend on each other up to rounding, and not in their own.
       if (rows && rows->redundant().empty()) {
         auto result = detail::solve_constrained(qp, alike, *rows, scaled.d(), tolerance, max_steps);
-        result.point = scaled.back(std::move(result.point));
-        if (result.status == status::unbounded) {
-          result.descent = scaled.back(std::move(result.descent));
-        }
+        detail::unscale(result, scaled);
         result.multipliers = c.of_unit_rows(result.multipliers);
-        detail::note_scaling(result.choice);
         return result;
       }
     }

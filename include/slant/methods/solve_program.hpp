@@ -110,7 +110,7 @@ template <class V, class S, class Make, class Certificate>
 [[nodiscard]] certified_point<V> run_certified(Make const& make, V const& x0,
                                                Certificate& certificate, S const& tolerance,
                                                run_limits most) {
-  S threshold = tolerance / S(10), best = std::numeric_limits<S>::infinity();
+  S threshold = tolerance / S(10), best = detail::infinity<S>();
   auto state = make(threshold).start(x0);
   certified_point<V> result{.point = x0, .status = status::running, .reason = {}, .choice = {}};
   while (true) {
@@ -195,7 +195,7 @@ template <class QP>
   if constexpr (interior_point_problem<QP>) {
     try {
       // Where Newton's method needs help, a small reduced gradient may leave a large error.
-      S const goal = std::max<S>(S(16) * std::numeric_limits<S>::epsilon(), S(1e-4) * tolerance);
+      S const goal = std::max<S>(S(16) * detail::epsilon<S>(), S(1e-4) * tolerance);
       auto const run =
           slant::solve(interior_point{qp}, x, reduced_gradient_below(goal) || slant::at_most(150));
       spent.operator_applications += run.state.work.operator_applications;
@@ -286,7 +286,7 @@ template <class K, class S>
 /// entries.
 template <class K>
 [[nodiscard]] index enough_without_levels(K const& k) {
-  return 300 + static_cast<index>(2e7 / (1 + static_cast<double>(k.nonZeros())));
+  return 300 + index(2e7 / (1 + static_cast<double>(k.nonZeros())));
 }
 
 /// go_on(M, what was chosen and why) with multigrid for D K D, or without where there is none.
@@ -364,7 +364,7 @@ template <class QP>
   if (V a = like(qp.b(), qp.size()); slant::diagonal_if_known(qp.a(), a)) {
     Eigen::Matrix<S, Eigen::Dynamic, 1> const entries = slant::local(a);
     auto const factors = block_factors(function_of(qp), entries);
-    S least = std::numeric_limits<S>::infinity(), most(0);
+    S least = detail::infinity<S>(), most(0);
     for (index i = 0; i < factors.size(); ++i) {
       if (!(entries(i) > S(0))) continue;
       least = std::min<S>(least, factors(i));
@@ -378,9 +378,13 @@ template <class QP>
   return d;
 }
 
-inline void note_scaling(std::string& choice) {
-  choice.insert(0, choice.empty() ? "" : "; ");
-  choice.insert(0, "blocks scaled, because their stiffness differs by more than 64");
+/// The result for x of one for y with x = D y.
+template <class Result, class Scaled>
+void unscale(Result& result, Scaled const& scaled) {
+  result.point = scaled.back(std::move(result.point));
+  if (result.status == status::unbounded) result.descent = scaled.back(std::move(result.descent));
+  result.choice.insert(0, result.choice.empty() ? "" : "; ");
+  result.choice.insert(0, "blocks scaled, because their stiffness differs by more than 64");
 }
 
 }  // namespace detail
@@ -410,11 +414,7 @@ template <class QP>
           return detail::solve_by_parts(alike, y0, tolerance, max_steps);
         }
       }();
-      result.point = scaled.back(std::move(result.point));
-      if (result.status == status::unbounded) {
-        result.descent = scaled.back(std::move(result.descent));
-      }
-      detail::note_scaling(result.choice);
+      detail::unscale(result, scaled);
       return result;
     }
   }

@@ -35,14 +35,11 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
-
-// --- problem -------------------------------------------------------------------------------------
 
 /// F of [T (2.11)] for a quadratic program, of which it refers to A and the set.
 template <quadratic_program QP>
@@ -55,8 +52,6 @@ concept ssnm_parts =
     quadratic_program<QP> && !detail::was_refused<QP> &&
     direction_solver<LinearSolver, slant_operator_t<ssnm_function<QP>, typename QP::vector_type>,
                      typename QP::vector_type>;
-
-// --- options -------------------------------------------------------------------------------------
 
 /// Where the multipliers of SSNM begin.
 enum class ssnm_multipliers : unsigned char {
@@ -87,8 +82,6 @@ struct ssnm_options {
   }
 };
 
-// --- state ---------------------------------------------------------------------------------------
-
 /// State of ssnm for the function F, vectors V and a linear solver.
 template <class F, class V, class Solver>
 struct ssnm_state {
@@ -99,17 +92,17 @@ struct ssnm_state {
   V multipliers;                               ///< z, one per inequality
   V y;                                         ///< (x, z)
   V residual;                                  ///< F(y)
-  V direction;                                 ///< dy of the last step
   slant_type slant_operator;                   ///< F°(y)
   workspace_t<F, V> f_workspace;               ///< temporaries of F
   prepared_t<Solver, slant_type, V> prepared;  ///< what the linear solver keeps
+  V direction = residual;                      ///< dy of the last step
 
-  scalar residual_norm{0};                                     ///< ‖F(y)‖
-  scalar residual_scale{0};                                    ///< ‖b‖
-  scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖x⁺ − x‖ of the last step
-  scalar x_norm{0};                                            ///< ‖x‖
-  scalar linear_residual{0};          ///< ‖F + F° dy‖ of the last step
-  forcing_history<scalar> forcing{};  ///< err, and tol of the last step
+  scalar residual_norm{0};                        ///< ‖F(y)‖
+  scalar residual_scale{0};                       ///< ‖b‖
+  scalar step_norm = detail::infinity<scalar>();  ///< ‖x⁺ − x‖ of the last step
+  scalar x_norm{0};                               ///< ‖x‖
+  scalar linear_residual{0};                      ///< ‖F + F° dy‖ of the last step
+  forcing_history<scalar> forcing{};              ///< err, and tol of the last step
 
   index inner_iterations = 0;  ///< of the linear solver in the last step
   index active = 0;            ///< inequalities in 𝒜 at y
@@ -132,8 +125,6 @@ struct ssnm_state {
                       "it, or an active gradient vanishes or depends on others"});
   }
 };
-
-// --- refusal -------------------------------------------------------------------------------------
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class LinearSolver = schur_bicgstab>
@@ -190,8 +181,6 @@ void estimated_multipliers(Set const& set, V const& x, V const& r, Z&& z) {
       });
 }
 
-// --- method --------------------------------------------------------------------------------------
-
 /// SSNM: solve(ssnm{qp, solver, options}, x0, step_below(tol, 1.0) || at_most(1000)); step_below
 /// with the offset 1 is the rule of [T], in which 1 has the unit of x.
 /// Requires a separable_qp whose set is made of blocks with smooth inequalities and, for the
@@ -238,24 +227,17 @@ class ssnm<QP, LinearSolver> {
     check(x0);
     detail::check_size("z0", index(slant::local(z0).size()), f_.multipliers());
     detail::check_finite("z0", z0);
-    auto blank = [&] { return like(x0, f_.cols()); };
-    auto y = blank();
+    auto y = like(x0, f_.cols());
     x_of(y) = slant::local(x0);
     z_of(y) = slant::local(z0);
-    auto residual = blank();
+    auto residual = y;
     auto f_workspace = slant::workspace(f_, y);
     slant::evaluate(f_, y, residual, f_workspace);
     detail::check_finite("F(x0)", residual);
     auto g = f_.slant(y);
     auto prepared = solver_.prepare(g, residual);
-    state_type s{x0,
-                 z0,
-                 y,
-                 std::move(residual),
-                 blank(),
-                 std::move(g),
-                 std::move(f_workspace),
-                 std::move(prepared)};
+    state_type s{
+        x0, z0, y, std::move(residual), std::move(g), std::move(f_workspace), std::move(prepared)};
     s.forcing = forcing_history<scalar>::starting_at(scalar(1));
     s.residual_scale = norm(problem().b());
     classify(s);

@@ -46,8 +46,6 @@
 
 namespace slant {
 
-// --- secant steps --------------------------------------------------------------------------------
-
 /// Acceleration of a fixed point iteration p ← Ψ(p) by its last difference, Anderson's with a
 /// window of one [Anderson 1965; Walker, Ni 2011, "type II"]: with f = Ψ(p) − p and Δp, Δf since
 /// the last call
@@ -63,11 +61,7 @@ class secant_mixing {
 
   secant_mixing() = default;
   /// For vectors of n entries. Allocates; nothing later does.
-  secant_mixing(V const& prototype, index n)
-      : p_(like(prototype, n)),
-        f_(like(prototype, n)),
-        Δp_(like(prototype, n)),
-        Δf_(like(prototype, n)) {}
+  secant_mixing(V const& prototype, index n) : p_(like(prototype, n)) {}
 
   /// The next step is a plain one.
   void forget() { begun_ = false; }
@@ -102,11 +96,9 @@ class secant_mixing {
   }
 
  private:
-  V p_{}, f_{}, Δp_{}, Δf_{};
+  V p_{}, f_ = p_, Δp_ = p_, Δf_ = p_;
   bool begun_ = false;
 };
-
-// --- options -------------------------------------------------------------------------------------
 
 /// Options of successive_approximations.
 template <class S = double>
@@ -115,24 +107,16 @@ struct successive_options {
   /// the last problem is not solved too well. Measured for Coulomb friction on bricks (k = 6): the
   /// products for 0.5 … 0.1 differ by a fifth at most, 0.02 takes up to a half more.
   eisenstat_walker forcing{.γ = 1, .exponent = 1.001, .η_max = 0.3, .η_first = 0.3};
-  bool secant = true;   ///< whether steps are accelerated
-  S growth = S(2);      ///< >= 1: the residual may grow so much in a step before it is a failure
-  S relaxation = S(1);  ///< ω in (0, 1]: p ← p + ω (Ψ(p) − p) for a plain step
+  bool secant = true;       ///< whether steps are accelerated
   index inner_steps = 200;  ///< of the inner method in one outer step at most
   index patience = 30;      ///< outer steps in which the residual does not fall that mean stalled
 
   [[gnu::cold]] void validate() const {
-    detail::check_option("growth", growth, growth >= S(1) && detail::is_finite(growth),
-                         "a finite number >= 1");
-    detail::check_option("relaxation", relaxation, relaxation > S(0) && relaxation <= S(1),
-                         "a number in (0, 1]");
     if (inner_steps < 1) throw bad_input("inner_steps", detail::show(inner_steps), "at least 1");
     if (patience < 1) throw bad_input("patience", detail::show(patience), "at least 1");
     forcing.validate();
   }
 };
-
-// --- state ---------------------------------------------------------------------------------------
 
 /// State of successive_approximations with an inner method of states Inner, for vectors V.
 template <class Inner, class V>
@@ -154,10 +138,10 @@ struct successive_state {
   secant_mixing<V> mixing;            ///< differences of p and Ψ(p) − p
   forcing_history<scalar> forcing{};  ///< residuals and inner tolerances so far
   progress_watch<scalar> progress{};  ///< looks for steps that get nowhere
-  scalar relaxation{1};               ///< ω; smaller after plain steps that have failed
-  bool solved_once = false;           ///< x is a solution at p, up to η R, and no start
-  bool accelerated = false;           ///< the last p is a secant step
-  scalar unit{1};                     ///< of r and r̃, a power of two: that of the inner method
+  scalar relaxation{1};  ///< ω: p ← p + ω (Ψ(p) − p) for a plain step; smaller after failures
+  bool solved_once = false;         ///< x is a solution at p, up to η R, and no start
+  bool accelerated = false;         ///< the last p is a secant step
+  scalar unit{1};                   ///< of r and r̃, a power of two: that of the inner method
   scalar reduced_gradient_norm{0};  ///< ‖r̃‖ at x for the problem at Ψ(p): 0 at a fixed point
   scalar gradient_scale{0};         ///< that of the inner problem
   index inner_iterations = 0;       ///< of the inner method in the last step
@@ -172,8 +156,6 @@ struct successive_state {
     return "the inner method reports: " + std::string(to_string(inner_status));
   }
 };
-
-// --- method --------------------------------------------------------------------------------------
 
 /// A family of quadratic programs with parameters; see the top of this file.
 template <class F, class V = typename F::vector_type>
@@ -255,7 +237,7 @@ class successive_approximations {
 
  private:
   void begin(state_type& s) const {
-    s.relaxation = options_.relaxation;
+    s.relaxation = scalar(1);
     s.accelerated = false;
     s.solved_once = false;
     look(s);
@@ -351,10 +333,10 @@ class successive_approximations {
     }
   }
 
-  /// Where the residual has grown: no secant step from what is known, or shorter ones.
+  /// Where the residual has more than doubled: no secant step from what is known, or shorter ones.
   void guard(state_type& s, scalar const& before) const {
     if (s.status != status::running) return;
-    if (s.reduced_gradient_norm > options_.growth * before) {
+    if (s.reduced_gradient_norm > scalar(2) * before) {
       if (!s.accelerated && s.iteration > 1) s.relaxation /= scalar(2);
       s.mixing.forget();
     }

@@ -44,7 +44,6 @@
 #include <slant/methods/kprgp.hpp>
 #include <slant/methods/parts/curved_minimum.hpp>
 #include <slant/methods/parts/gradient_point.hpp>
-#include <slant/methods/symmetric_newton_options.hpp>
 #include <slant/newton/forcing.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>
@@ -62,8 +61,6 @@
 #include <utility>
 
 namespace slant {
-
-// --- problem -------------------------------------------------------------------------------------
 
 /// min ½ xᵀA x − bᵀx over x ∈ Λ as kprgp takes it, Λ of blocks whose projections have slant(x); or
 /// + φ(x) as envelope_newton takes it.
@@ -237,8 +234,6 @@ class rounded_products<A, V> {
   workspace_t<twin, V> workspace_;
 };
 
-// --- state ---------------------------------------------------------------------------------------
-
 /// The steps of symmetric_newton.
 enum class symmetric_newton_step : unsigned char { none, full, damped, descent };
 
@@ -287,14 +282,7 @@ std::string symmetric_newton_state<QP, M>::reason() const {
        .breakdown = "a number left the range of the scalar, or A is not semidefinite"});
 }
 
-// --- refusal -------------------------------------------------------------------------------------
-
 namespace detail {
-
-template <class QP>
-using plain_symmetric_newton_state = symmetric_newton_state<QP, identity_operator>;
-template <class S>
-using symmetric_newton_options_of = symmetric_newton_options<S>;
 
 template <class QP, class M>
 struct symmetric_newton_demands {
@@ -317,8 +305,9 @@ struct symmetric_newton_demands<QP, M> {
 
 /// Arguments that lack something end here and are told so; see problems/quadratic_program.hpp.
 template <class QP, class M = identity_operator>
-class symmetric_newton : public detail::refused_program<QP, detail::plain_symmetric_newton_state,
-                                                        detail::symmetric_newton_options_of> {
+class symmetric_newton : public detail::refused_program<
+                             QP, symmetric_newton_state<std::remove_cvref_t<QP>, identity_operator>,
+                             symmetric_newton_options<detail::program_scalar_t<QP>>> {
   static_assert(detail::composite_demands<std::remove_cvref_t<QP>>::told);
   static_assert(
       detail::symmetric_newton_demands<std::remove_cvref_t<QP>, std::remove_cvref_t<M>>::told);
@@ -334,35 +323,18 @@ template <class QP, class M>
 symmetric_newton(QP&&, M&&, symmetric_newton_options<detail::program_scalar_t<QP>> = {})
     -> symmetric_newton<kept_t<QP>, kept_t<M>>;
 
-// --- method --------------------------------------------------------------------------------------
-
 namespace detail {
 
 /// What `symmetric_newton` does with a problem that has all it needs.
 template <class QP, class M>
-class symmetric_newton_steps {
- public:
-  using problem = std::remove_cvref_t<QP>;
-  using preconditioner = std::remove_cvref_t<M>;
-  using vector_type = typename problem::vector_type;
-  using scalar = typename problem::scalar;
-  using options = symmetric_newton_options<scalar>;
-  using state_type = symmetric_newton_state<problem, preconditioner>;
-  static constexpr bool preconditioned = !std::is_same_v<preconditioner, identity_operator>;
+class symmetric_newton_steps : public preconditioned_program<QP, M, symmetric_newton_options> {
+  using base = preconditioned_program<QP, M, symmetric_newton_options>;
+  using base::qp_, base::m_, base::options_;
 
-  /// Throws bad_input for options out of range.
-  explicit symmetric_newton_steps(held<QP> qp, options o = {})
-    requires(!preconditioned)
-      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
-    options_.validate();
-  }
-  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
-  symmetric_newton_steps(held<QP> qp, held<M> m, options o = {})
-      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
-    check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
-    check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
-    options_.validate();
-  }
+ public:
+  using typename base::problem, typename base::vector_type, typename base::scalar;
+  using state_type = symmetric_newton_state<problem, typename base::preconditioner>;
+  using base::base;
 
   /// The state of P_Λ(x0). Throws bad_input if x0 or A x0 is not finite or of the wrong size, or if
   /// ρ is not a finite number.
@@ -505,10 +477,6 @@ class symmetric_newton_steps {
       s.status = status::stalled;
     }
   }
-
-  held<QP> qp_;
-  held<M> m_;
-  options options_;
 };
 
 template <class QP, class M>

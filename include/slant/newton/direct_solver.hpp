@@ -58,9 +58,8 @@ direct_workspace(Factors, V, W) -> direct_workspace<V, Factors, W>;
 
 /// solve(dy) makes dy = G⁻¹ F and says whether it could; what comes of it.
 template <class G, class V, class P, class Solve>
-[[nodiscard]] direction_report<scalar_t<V>> direct_direction(
-    G const& g, V const& f, direction_request<scalar_t<V>> const& request, V& dy, P& p,
-    Solve solve) {
+[[nodiscard]] report_of<V> direct_direction(G const& g, V const& f, request_of<V> const& request,
+                                            V& dy, P& p, Solve solve) {
   using S = scalar_t<V>;
   constexpr index factored = std::remove_cvref_t<decltype(p.factors)>::factorizations;
   direction_report<S> report{status::breakdown, request.residual_norm, 0, 1 - factored, factored};
@@ -110,9 +109,7 @@ struct direct_solver {
 
   template <class G, class V, class P>
     requires solved_directly<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      P& p) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy, P& p) const {
     return detail::direct_direction(g, f, request, dy, p, [&](V& x) {
       if constexpr (has_inverse<G, V>) {
         try {
@@ -226,9 +223,7 @@ struct sparse_direct_solver {
 
   template <class G, class V, class P>
     requires linear_operator<G, V> && has_columns<G, detail::dense_matrix_t<V>>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      P& p) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy, P& p) const {
     return detail::direct_direction(g, f, request, dy, p, [&](V& x) {
       if (!p.factors.factor(g)) return false;
       p.factors.solve(f, x);

@@ -29,7 +29,6 @@
 #include <slant/concepts/vector.hpp>
 
 #include <concepts>
-#include <limits>
 #include <utility>
 
 namespace slant {
@@ -51,6 +50,11 @@ struct direction_report {
   index factorizations = 0;                       ///< matrices factored
 };
 
+template <class V>
+using request_of = direction_request<scalar_t<V>>;
+template <class V>
+using report_of = direction_report<scalar_t<V>>;
+
 template <class D, class G, class V>
 concept has_prepare = requires(D const& d, G const& g, V const& f) {
   { d.prepare(g, f) } -> std::copyable;
@@ -62,11 +66,10 @@ using prepared_t =
     decltype(std::declval<D const&>().prepare(std::declval<G const&>(), std::declval<V const&>()));
 
 template <class D, class G, class V>
-concept has_direction =
-    requires(D const& d, G const& g, V const& f, direction_request<scalar_t<V>> const& request,
-             V& dy, prepared_t<D, G, V>& p) {
-      { d.solve(g, f, request, dy, p) } -> std::same_as<direction_report<scalar_t<V>>>;
-    };
+concept has_direction = requires(D const& d, G const& g, V const& f, request_of<V> const& request,
+                                 V& dy, prepared_t<D, G, V>& p) {
+  { d.solve(g, f, request, dy, p) } -> std::same_as<report_of<V>>;
+};
 
 /// A linear solver for operators G and vectors V; see the top of this file.
 template <class D, class G, class V>
@@ -95,8 +98,6 @@ using chosen_solver_t = typename detail::chosen_solver<D, G, V>::type;
 
 namespace slant::detail {
 
-// --- iteration limit -----------------------------------------------------------------------------
-
 /// Throws bad_input unless it is a number of iterations, or 0 for "choose".
 inline void check_iteration_limit(index max_iterations) {
   if (max_iterations < 0) {
@@ -113,7 +114,7 @@ template <class V>
 /// A tolerance below the rounding error of a residual cannot be told from it.
 template <class S>
 [[nodiscard]] S attainable(S const& tolerance) {
-  S const ε = std::numeric_limits<S>::epsilon();
+  S const ε = detail::epsilon<S>();
   return tolerance > ε ? tolerance : ε;
 }
 

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -39,9 +38,7 @@ struct cg_solver {
 
   template <class G, class V, class State>
     requires spd_operator<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      State& s) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy, State& s) const {
     using S = scalar_t<V>;
     cg const method{g, f};
     S const target = detail::attainable(request.tolerance) * request.residual_norm;
@@ -87,9 +84,7 @@ struct bicgstab_solver {
 
   template <class G, class V, class State>
     requires linear_operator<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      State& s) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy, State& s) const {
     using S = scalar_t<V>;
     bicgstab const method{g, f};
     S const target = detail::attainable(request.tolerance) * request.residual_norm;
@@ -100,7 +95,7 @@ struct bicgstab_solver {
     report.residual_norm = request.residual_norm;
     // Where G is nearly singular a vector of any size changes the residual in its last digits.
     using std::sqrt;
-    S const noticeably = S(1) - sqrt(std::numeric_limits<S>::epsilon());
+    S const noticeably = S(1) - sqrt(detail::epsilon<S>());
     auto const keep_best = [&](auto const& state) {
       S const now = state.residual_norm;
       bool const enough = now <= target && now < report.residual_norm;
@@ -174,15 +169,11 @@ struct gmres_solver {
     requires linear_operator<G, V>
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
     index const n = slant::local(f).size();
-    auto const most = static_cast<std::size_t>(std::min<index>(restart, slant::global_size(f)));
+    auto const most = std::size_t(std::min<index>(restart, slant::global_size(f)));
     using S = scalar_t<V>;
-    gmres_memory<V, workspace_t<G, V>> m{{},
-                                         std::vector<S>(most * (most + 1) / 2),
-                                         std::vector<S>(most + 1),
-                                         std::vector<S>(most),
-                                         std::vector<S>(most),
-                                         std::vector<S>(most + 1),
-                                         workspace(g, f)};
+    std::vector<S> const room(most), more(most + 1);
+    std::vector<S> h(most * (most + 1) / 2);
+    gmres_memory<V, workspace_t<G, V>> m{{}, std::move(h), more, room, room, more, workspace(g, f)};
     m.basis.reserve(most + 1);
     for (std::size_t i = 0; i <= most; ++i) m.basis.push_back(like(f, n));
     return m;
@@ -190,9 +181,7 @@ struct gmres_solver {
 
   template <class G, class V, class Memory>
     requires linear_operator<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      Memory& m) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy, Memory& m) const {
     using S = scalar_t<V>;
     S const target = detail::attainable(request.tolerance) * request.residual_norm;
     index const limit = detail::iteration_limit(max_iterations, f);
@@ -242,7 +231,7 @@ struct gmres_solver {
   template <class S>
   static S doubtful(S const& f, S const& image) {
     using std::sqrt;
-    return sqrt(std::numeric_limits<S>::epsilon()) * (f + image);
+    return sqrt(detail::epsilon<S>()) * (f + image);
   }
 
   /// One run from v₁; adds to dy. `largest` becomes that of the ‖F° v_j‖, if it is larger.
@@ -267,7 +256,7 @@ struct gmres_solver {
       }
       S below = norm(next);
       // What is left is a rounding error: the space holds the solution, or F° is singular on it.
-      bool const last = below <= S(8) * std::numeric_limits<S>::epsilon() * whole;
+      bool const last = below <= S(8) * detail::epsilon<S>() * whole;
       if (last) below = S(0);
       if (!last) vectors::divide(below, next);
       if (!rotate(m, j, below, whole)) break;
@@ -311,7 +300,7 @@ struct gmres_solver {
     }
     using std::hypot;
     S const length = hypot(m.column[j], below);
-    if (!(length > S(8) * std::numeric_limits<S>::epsilon() * whole)) return false;
+    if (!(length > S(8) * detail::epsilon<S>() * whole)) return false;
     m.c[j] = m.column[j] / length;
     m.s[j] = below / length;
     entry(m, j, j) = length;

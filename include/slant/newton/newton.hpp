@@ -16,5 +16,4 @@
 
 // How accurately, and how far:
 #include <slant/newton/forcing.hpp>
-#include <slant/newton/globalisation.hpp>
 // IWYU pragma: end_exports

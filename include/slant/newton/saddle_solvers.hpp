@@ -173,8 +173,6 @@ class factored_inverse {
   index n_;
 };
 
-// --- schur reduction -----------------------------------------------------------------------------
-
 template <class G>
 concept has_hessian_matrix = is_kkt_operator<G> && requires(G const& g) {
   requires eigen_matrix<decltype(g.hessian().get())>;
@@ -184,44 +182,34 @@ concept has_hessian_matrix = is_kkt_operator<G> && requires(G const& g) {
 template <class G, class V>
 concept factorable_saddle = has_hessian_matrix<G> && linear_operator<G, V>;
 
-/// Vectors and factors of a Schur complement solver, apart from what its inner iteration keeps.
-template <class V, class Factors, class W>
-struct schur_workspace {
-  Factors factors;                  ///< of K = A + H
-  V force;                          ///< n entries, right-hand side of K x = …
-  V x;                              ///< n entries, K⁻¹ force
-  V reduced;                        ///< p entries, right-hand side of the Schur complement
-  V multipliers;                    ///< p entries, dz
-  V active;                         ///< p entries, 1 in 𝒜 (times ρ in variant A)
-  V inactive;                       ///< p entries, 1 in ℐ
-  V residual;                       ///< F + G dy
-  W g_workspace;                    ///< temporaries of G
-  typename Factors::vector_type w;  ///< temporaries of a solve
-};
-
 template <class G>
 using hessian_matrix_t = std::remove_cvref_t<decltype(std::declval<G const&>().hessian().get())>;
 
+/// Vectors and factors of a Schur complement solver, apart from what its inner iteration keeps.
 template <class G, class V>
-[[nodiscard]] auto make_schur_workspace(G const& g, V const& f) {
-  index const n = g.jacobian().cols();
-  index const p = g.jacobian().rows();
-  using factors = hessian_factors_t<hessian_matrix_t<G>>;
-  auto g_workspace = slant::workspace(g, f);
-  schur_workspace<V, factors, decltype(g_workspace)> w{{},
-                                                       like(f, n),
-                                                       like(f, n),
-                                                       like(f, p),
-                                                       like(f, p),
-                                                       like(f, p),
-                                                       like(f, p),
-                                                       like(f, p),
-                                                       std::move(g_workspace),
-                                                       typename factors::vector_type(n)};
-  w.residual = like(f, n + p);
-  for (V* v : {&w.reduced, &w.multipliers, &w.active, &w.inactive}) vectors::set_zero(*v);
-  return w;
-}
+struct schur_workspace {
+  using factors_type = hessian_factors_t<hessian_matrix_t<G>>;
+
+  factors_type factors{};                ///< of K = A + H
+  V force;                               ///< n entries, right-hand side of K x = …
+  V x = force;                           ///< n entries, K⁻¹ force
+  V reduced;                             ///< p entries, right-hand side of the Schur complement
+  V multipliers = reduced;               ///< p entries, dz
+  V active = reduced;                    ///< p entries, 1 in 𝒜 (times ρ in variant A)
+  V inactive = reduced;                  ///< p entries, 1 in ℐ
+  V residual;                            ///< F + G dy
+  workspace_t<G, V> g_workspace;         ///< temporaries of G
+  typename factors_type::vector_type w;  ///< temporaries of a solve
+
+  schur_workspace(G const& g, V const& f)
+      : force(like(f, g.jacobian().cols())),
+        reduced(like(f, g.jacobian().rows())),
+        residual(like(f, slant::local(f).size())),
+        g_workspace(slant::workspace(g, f)),
+        w(g.jacobian().cols()) {
+    for (V* v : {&reduced, &multipliers, &active, &inactive}) vectors::set_zero(*v);
+  }
+};
 
 /// With what the inner iteration keeps.
 template <class Common, class Krylov>
@@ -239,8 +227,8 @@ template <class V>
 /// dy = (−x, dz) for the dz in p, x = K⁻¹(F₁ + Jᵀdz); then its residual, one application of G. The
 /// report is that of the inner iteration, after one solve and one factorisation of K.
 template <class G, class V, class P>
-void finish_direction(G const& g, V const& f, direction_request<scalar_t<V>> const& request, V& dy,
-                      P& p, direction_report<scalar_t<V>>& report) {
+void finish_direction(G const& g, V const& f, request_of<V> const& request, V& dy, P& p,
+                      report_of<V>& report) {
   using S = scalar_t<V>;
   index const n = g.jacobian().cols();
   index const m = g.jacobian().rows();
@@ -268,8 +256,7 @@ void finish_direction(G const& g, V const& f, direction_request<scalar_t<V>> con
 
 /// What is reported where K has no factors of the kind wanted: no direction.
 template <class V>
-[[nodiscard]] direction_report<scalar_t<V>> no_factors(
-    direction_request<scalar_t<V>> const& request, V& dy) {
+[[nodiscard]] report_of<V> no_factors(request_of<V> const& request, V& dy) {
   vectors::set_zero(dy);
   return {status::breakdown, request.residual_norm, 0, 0, 1};
 }
@@ -286,7 +273,7 @@ struct schur_solver {
   template <class G, class V>
     requires factorable_saddle<G, V>
   [[nodiscard]] auto prepare(G const& g, V const& f) const {
-    auto common = make_schur_workspace(g, f);
+    schur_workspace<G, V> common(g, f);
     auto krylov = inner.prepare(Self::schur(g, common), common.reduced);
     return schur_krylov_workspace<decltype(common), decltype(krylov)>{std::move(common),
                                                                       std::move(krylov)};
@@ -294,9 +281,8 @@ struct schur_solver {
 
   template <class G, class V, class P>
     requires factorable_saddle<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      P& prepared) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy,
+                     P& prepared) const {
     using S = scalar_t<V>;
     auto& p = prepared.common;
     index const n = g.jacobian().cols();
@@ -432,9 +418,7 @@ struct saddle_direct {
 
   template <class G, class V, class P>
     requires detail::factorable_saddle<G, V>
-  direction_report<scalar_t<V>> solve(G const& g, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      P& p) const {
+  report_of<V> solve(G const& g, V const& f, request_of<V> const& request, V& dy, P& p) const {
     return detail::direct_direction(g, f, request, dy, p, [&](V& x) {
       if (!p.factors.factor(assembled<scalar_t<V>>(g))) return false;
       p.factors.solve(f, x);

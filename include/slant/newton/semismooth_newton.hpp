@@ -29,17 +29,109 @@
 #include <slant/newton/direct_solver.hpp>
 #include <slant/newton/direction.hpp>
 #include <slant/newton/forcing.hpp>
-#include <slant/newton/globalisation.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/symmetrized_cg.hpp>
 #include <slant/slanting/slanting_part.hpp>
 
-#include <limits>
+#include <concepts>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 namespace slant {
+
+// --- globalisation -------------------------------------------------------------------------------
+//
+// Globalisations: how far to go along a Newton direction.
+//
+// Intuition. Like forcing terms they see numbers only. The method evaluates F(y + α dy) for the
+// lengths α that it is told, and keeps the value of the accepted one as its next residual: so a
+// length that is accepted at once costs nothing.
+//
+// Minimal definition.
+//     first_length()       the first α
+//     accepts(point)       is this the next iterate? Never true of a point where ‖F‖ is not finite
+//     next_length(point)   the α to try after a refusal; 0: give up
+//
+// Models. full_step, multiple_root, halving_line_search.
+
+/// A point tried along a direction.
+template <class S>
+struct search_point {
+  index trial = 0;       ///< 0 for the first length
+  S length{1};           ///< α
+  S residual{0};         ///< ‖F(y + α dy)‖; NaN and ∞ are possible
+  S residual_before{0};  ///< ‖F(y)‖
+  S linear_residual{0};  ///< ‖F(y) + F°(y) dy‖
+};
+
+/// A rule for the length of Newton steps; see the top of this file.
+template <class G, class S>
+concept globalisation = requires(G const& g, search_point<S> const& p) {
+  S(g.first_length());
+  { g.accepts(p) } -> std::same_as<bool>;
+  { g.next_length(p) } -> std::convertible_to<S>;
+};
+
+/// α = 1 always: Newton's method itself. Local convergence.
+struct full_step {
+  [[nodiscard]] static constexpr int first_length() { return 1; }
+  template <class S>
+  [[nodiscard]] bool accepts(search_point<S> const& p) const {
+    return detail::is_finite(p.residual);
+  }
+  template <class S>
+  [[nodiscard]] S next_length(search_point<S> const&) const {
+    return S(0);
+  }
+};
+
+/// α = m: a root of known multiplicity m is approached quadratically, where α = 1 is linear with
+/// the factor 1 − 1/m [Schröder 1870].
+struct multiple_root {
+  double multiplicity = 2;  ///< m ≥ 1
+
+  [[gnu::cold]] void validate() const {
+    detail::check_option("multiplicity", multiplicity,
+                         multiplicity >= 1 && detail::is_finite(multiplicity),
+                         "a number in [1, ∞)");
+  }
+  [[nodiscard]] double first_length() const { return multiplicity; }
+  template <class S>
+  [[nodiscard]] bool accepts(search_point<S> const& p) const {
+    return detail::is_finite(p.residual);
+  }
+  template <class S>
+  [[nodiscard]] S next_length(search_point<S> const&) const {
+    return S(0);
+  }
+};
+
+/// α = 1, ½, ¼, … until ‖F(y + α dy)‖ ≤ ‖F‖ − c α (‖F‖ − ‖F + F° dy‖): a fraction c of the
+/// decrease that the linear model promises [Eisenstat, Walker 1994].
+///
+/// Where F is smooth and F° dy = −F nearly, some α is accepted. At a kink it may be that none is:
+/// then the run stalls rather than accept an increase, since a monotone sequence ‖F‖ is all that
+/// is known to keep it from cycling.
+struct halving_line_search {
+  double sufficient = 1e-4;  ///< c in (0, 1)
+  index max_halvings = 30;   ///< ≥ 0
+
+  [[gnu::cold]] void validate() const {
+    detail::check_fraction("sufficient", sufficient);
+    detail::check_option("max_halvings", max_halvings, max_halvings >= 0, "a number >= 0");
+  }
+  [[nodiscard]] static constexpr int first_length() { return 1; }
+  template <class S>
+  [[nodiscard]] bool accepts(search_point<S> const& p) const {
+    S const promised = p.residual_before - p.linear_residual;
+    return p.residual <= p.residual_before - S(sufficient) * p.length * promised;
+  }
+  template <class S>
+  [[nodiscard]] S next_length(search_point<S> const& p) const {
+    return p.trial < max_halvings ? S(p.length / S(2)) : S(0);
+  }
+};
 
 // --- by laws -------------------------------------------------------------------------------------
 //
@@ -67,19 +159,6 @@ struct by_laws {
   }
 };
 
-// --- options -------------------------------------------------------------------------------------
-
-/// Options of semismooth_newton.
-struct newton_options {
-  index patience = 100;  ///< steps without a new smallest ‖F‖ that mean stalled
-
-  [[gnu::cold]] void validate() const {
-    if (patience < 0) throw bad_input("patience", detail::show(patience), "a number >= 0");
-  }
-};
-
-// --- state ---------------------------------------------------------------------------------------
-
 /// What ended a run of semismooth_newton, beside success.
 enum class newton_failure : unsigned char {
   none,          ///< nothing has
@@ -87,7 +166,7 @@ enum class newton_failure : unsigned char {
   not_finite,    ///< F left the range of the scalar where the step leads
   no_length,     ///< no length was accepted by the globalisation
   no_digits,     ///< steps are down to the last digit of y, and ‖F‖ falls no more
-  no_progress    ///< ‖F‖ has had no new smallest value for `patience` steps
+  no_progress    ///< ‖F‖ has had no new smallest value for a hundred steps
 };
 
 /// State of semismooth_newton for F on vectors V with a solver of type Solver. slant_operator
@@ -100,25 +179,25 @@ struct newton_state {
 
   V x;                                         ///< iterate y
   V residual;                                  ///< F(y)
-  V direction;                                 ///< dy of the last step
-  V trial;                                     ///< y + α dy
-  V trial_residual;                            ///< F(y + α dy)
   slant_type slant_operator;                   ///< F°(y)
   workspace_t<F, V> f_workspace;               ///< temporaries of F
   prepared_t<Solver, slant_type, V> prepared;  ///< what the linear solver keeps
+  V direction = residual;                      ///< dy of the last step
+  V trial = residual;                          ///< y + α dy
+  V trial_residual = residual;                 ///< F(y + α dy)
 
   scalar residual_norm{0};  ///< ‖F(y)‖
   /// What ‖F(y)‖ is small against: ‖F(0)‖, as ‖b‖ for linear systems; ‖F(y₀)‖ if that is 0 or not
   /// finite.
   scalar residual_scale{0};
-  scalar step_norm = std::numeric_limits<scalar>::infinity();  ///< ‖dy‖, or ‖α dy‖ if α > 1: a step
-                                                               ///< that was shortened says nothing
-                                                               ///< about the distance to go
-  scalar x_norm{0};                                            ///< ‖y‖
-  scalar length{0};                                            ///< α of the last step
-  scalar linear_residual{0};          ///< ‖F + F° dy‖ of the last step
-  forcing_history<scalar> forcing{};  ///< errors, and η of the last step
-  progress_watch<scalar> progress{};  ///< looks for steps that get nowhere
+  scalar step_norm = detail::infinity<scalar>();  ///< ‖dy‖, or ‖α dy‖ if α > 1: a step
+                                                  ///< that was shortened says nothing
+                                                  ///< about the distance to go
+  scalar x_norm{0};                               ///< ‖y‖
+  scalar length{0};                               ///< α of the last step
+  scalar linear_residual{0};                      ///< ‖F + F° dy‖ of the last step
+  forcing_history<scalar> forcing{};              ///< errors, and η of the last step
+  progress_watch<scalar> progress{};              ///< looks for steps that get nowhere
 
   index inner_iterations = 0;  ///< of the linear solver in the last step
   index trials = 0;            ///< evaluations of F in the last step, 1 without shortening
@@ -137,7 +216,7 @@ struct newton_state {
   }
   /// The same where no step was made: the size of its direction, 0 perhaps, is no sign of success.
   bool give_up_step(slant::status how, newton_failure why) {
-    step_norm = std::numeric_limits<scalar>::infinity();
+    step_norm = detail::infinity<scalar>();
     return give_up(how, why);
   }
 
@@ -240,10 +319,8 @@ class semismooth_newton : public detail::refused {
   void step(State& s) const;
 };
 
-// --- method --------------------------------------------------------------------------------------
-
 /// Newton's method: solve(semismooth_newton{F}, y0, residual_below(1e-10) || at_most(100)), or
-/// semismooth_newton{F, linear solver, globalisation, forcing rule, options}.
+/// semismooth_newton{F, linear solver, globalisation, forcing rule}.
 /// Requires slanting_function<F, V> for the vectors V of the start and a linear solver that can
 /// handle F°(y). Statuses of its own, with state.failure and state.reason(): converged (F(y) = 0);
 /// breakdown (no direction, as where F°(y) is singular; F not finite); stalled (no length is
@@ -261,17 +338,15 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
 
   /// Throws bad_input if F has not as many values as arguments, or for options out of range.
   explicit semismooth_newton(held<F> f, LinearSolver linear_solver = {}, Globalisation search = {},
-                             Forcing forcing = {}, newton_options options = {})
+                             Forcing forcing = {})
       : f_(std::move(f)),
         linear_solver_(std::move(linear_solver)),
         search_(std::move(search)),
-        forcing_(std::move(forcing)),
-        options_(options) {
+        forcing_(std::move(forcing)) {
     detail::check_size("F.rows()", index(this->f().rows()), index(this->f().cols()), "F.cols()");
     detail::validate_part(linear_solver_);
     detail::validate_part(search_);
     detail::validate_part(forcing_);
-    options_.validate();
   }
 
   /// Throws bad_input if x0 or F(x0) is not finite or of the wrong size.
@@ -281,20 +356,13 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     using S = scalar_t<V>;
     detail::check_size("x0", index(slant::local(x0).size()), index(f().cols()), "F.cols()");
     detail::check_finite("x0", x0);
-    auto blank = [&] { return like(x0, f().rows()); };
     auto f_workspace = slant::workspace(f(), x0);
-    auto residual = blank();
+    auto residual = like(x0, f().rows());
     slant::evaluate(f(), x0, residual, f_workspace);
     detail::check_finite("F(x0)", residual);
     auto g = slant::slant_from_value(f(), x0, f_workspace);
     auto prepared = solver<V>().prepare(std::as_const(g), std::as_const(residual));
-    state_for<V> s{x0,
-                   std::move(residual),
-                   blank(),
-                   blank(),
-                   blank(),
-                   std::move(g),
-                   std::move(f_workspace),
+    state_for<V> s{x0, std::move(residual), std::move(g), std::move(f_workspace),
                    std::move(prepared)};
     vectors::set_zero(s.direction);
     ++s.work.operator_applications;
@@ -404,10 +472,11 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
     S const before = norm(s.trial_residual);
     s.forcing.record(s.residual_norm);
     if (s.status != status::running) return;
-    bool const last_digits = s.step_norm <= S(4) * std::numeric_limits<S>::epsilon() * s.x_norm;
+    bool const last_digits = s.step_norm <= S(4) * detail::epsilon<S>() * s.x_norm;
     if (last_digits && !(s.residual_norm < before)) {
       s.give_up(status::stalled, newton_failure::no_digits);
-    } else if (s.progress.stalled(s.iteration, s.residual_norm, options_.patience)) {
+    } else if (constexpr index patience = 100;
+               s.progress.stalled(s.iteration, s.residual_norm, patience)) {
       s.give_up(status::stalled, newton_failure::no_progress);
     }
   }
@@ -429,12 +498,11 @@ class semismooth_newton<F, LinearSolver, Globalisation, Forcing> {
   LinearSolver linear_solver_;
   Globalisation search_;
   Forcing forcing_;
-  newton_options options_;
 };
 
 template <class F, class LinearSolver = by_laws, class Globalisation = halving_line_search,
           class Forcing = eisenstat_walker>
-semismooth_newton(F&&, LinearSolver = {}, Globalisation = {}, Forcing = {}, newton_options = {})
+semismooth_newton(F&&, LinearSolver = {}, Globalisation = {}, Forcing = {})
     -> semismooth_newton<kept_t<F>, LinearSolver, Globalisation, Forcing>;
 
 }  // namespace slant

@@ -30,7 +30,6 @@
 #include <slant/slanting/symmetrized.hpp>
 
 #include <cstddef>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -81,7 +80,7 @@ struct range_inverse<block_diagonal_slant<S, N, Layout, Identity>> {
       return matrix_type::Constant(S(1) / trace);
     } else {
       // In units of the trace: a block may be as small as radius/distance is.
-      S const shift = sqrt(std::numeric_limits<S>::epsilon());
+      S const shift = sqrt(detail::epsilon<S>());
       auto const shifted = from_entries<matrix_type>([&](int i, int j) -> S {
         return g.coeff(i, j) * (S(1) / trace) + (i == j ? shift : S(0));
       });
@@ -174,9 +173,7 @@ struct symmetrized_cg {
 
   template <class N, class V, class P>
     requires symmetrizable<N> && linear_operator<N, V>
-  direction_report<scalar_t<V>> solve(N const& newton, V const& f,
-                                      direction_request<scalar_t<V>> const& request, V& dy,
-                                      P& p) const {
+  report_of<V> solve(N const& newton, V const& f, request_of<V> const& request, V& dy, P& p) const {
     using S = scalar_t<V>;
     auto const symmetric = slant::symmetrized(newton);
     auto const h = declare<positive_definite>(symmetric);

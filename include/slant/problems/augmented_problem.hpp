@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
-#include <limits>
 #include <utility>
 
 namespace slant {
@@ -86,15 +85,14 @@ template <class A, class V>
 
 /// Mean of diag(P A P), or what A is on ones where that may consist of rounding errors of A.
 template <class A, class C, class V>
-[[nodiscard]] auto projected_mean_diagonal(A const& a, C const& c, V const& prototype,
-                                           mean_diagonal_options const& options = {})
+[[nodiscard]] auto projected_mean_diagonal(A const& a, C const& c, V const& prototype)
     -> diagonal_mean<scalar_t<V>> {
   using S = scalar_t<V>;
   diagonal_mean<S> mean{size_on_ones(a, prototype), 1};
   if (is_one_point(c)) return mean;
-  auto const of_a = slant::mean_diagonal(projected_hessian(a, c), prototype, options);
+  auto const of_a = mean_diagonal(projected_hessian(a, c), prototype);
   mean.applications += of_a.applications;
-  if (of_a.value > S(32) * std::numeric_limits<S>::epsilon() * mean.value) mean.value = of_a.value;
+  if (of_a.value > S(32) * detail::epsilon<S>() * mean.value) mean.value = of_a.value;
   return mean;
 }
 
@@ -120,7 +118,7 @@ template <class QP, class C>
   slant::apply(c.kernel_projector(), rest, load.projected);
   vectors::difference(load.projected, rest, load.opposed);
   auto const n = static_cast<S>(static_cast<double>(slant::global_size(qp.b())));
-  if (norm(load.projected) <= S(32) * sqrt(n) * std::numeric_limits<S>::epsilon() * terms) {
+  if (norm(load.projected) <= S(32) * sqrt(n) * detail::epsilon<S>() * terms) {
     vectors::set_zero(load.projected);
   }
   return load;
@@ -132,7 +130,7 @@ template <class QP, class C>
 template <class S>
 [[nodiscard]] S gradient_scale(S const& load, S const& a_size, S const& x_size) {
   using std::sqrt;
-  S const least = S(64) * sqrt(std::numeric_limits<S>::epsilon()) * load;
+  S const least = S(64) * sqrt(detail::epsilon<S>()) * load;
   S const of_x = a_size * x_size;
   return load > S(0) ? std::max<S>(std::min<S>(load, of_x), least) : of_x;
 }

@@ -25,7 +25,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace slant {
@@ -46,9 +45,7 @@ class cut_face {
         coarse_(N.rows(), N.rows()),
         factors_(N.rows()),
         weights_(N.rows()),
-        normal_(N.cols()),
-        kept_(N.cols()),
-        image_(N.cols()) {}
+        normal_(N.cols()) {}
 
   /// Becomes the face at z; κ is the weight of the curvature in W. False if N Π Nᵀ is singular;
   /// else nothing is allocated but what a large dense factorisation needs for itself.
@@ -95,8 +92,7 @@ class cut_face {
     using std::sqrt;
     weights_.noalias() = N_ * x;
     S const n(static_cast<double>(x.size()));
-    return all_told_ &&
-           weights_.norm() <= S(16) * std::numeric_limits<S>::epsilon() * sqrt(n) * length;
+    return all_told_ && weights_.norm() <= S(16) * detail::epsilon<S>() * sqrt(n) * length;
   }
   /// y = Π Nᵀ(N Π Nᵀ)⁻¹N x: the shortest step in the face that N maps to N x.
   void lift(vector_type const& x, vector_type& y) const {
@@ -136,7 +132,7 @@ class cut_face {
       vector_type rest(N_.cols());
       keep(row, rest);
       cut(rest);
-      if (rest.norm() > S(16) * std::numeric_limits<S>::epsilon() * sqrt(n)) all_told_ = false;
+      if (rest.norm() > S(16) * detail::epsilon<S>() * sqrt(n)) all_told_ = false;
     }
   }
 
@@ -176,7 +172,7 @@ class cut_face {
   std::vector<index> independent_;  // its rows, where it is singular
   bool all_told_ = true;            // and the others depend on these up to rounding
   Eigen::LLT<dense_type> factors_;
-  mutable vector_type weights_, part_, normal_, kept_, image_;  // scratch
+  mutable vector_type weights_, part_, normal_, kept_ = normal_, image_ = normal_;  // scratch
 };
 
 }  // namespace slant

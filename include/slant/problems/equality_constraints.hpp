@@ -28,7 +28,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 namespace slant::detail {
@@ -55,7 +54,7 @@ template <class S>
   index const p = rest.rows();
   Eigen::Matrix<S, Eigen::Dynamic, 1> column(p);
   std::vector<index> kept;
-  while (static_cast<index>(kept.size()) < p) {
+  while (index(kept.size()) < p) {
     index i = 0;
     S const pivot = rest.diagonal().maxCoeff(&i);
     if (!(pivot > smallest_pivot(p, S(1)))) break;
@@ -144,10 +143,10 @@ class equality_constraints {
   [[nodiscard]] vector_type const& nearest() const& { return nearest_; }
   vector_type const& nearest() const&& = delete;
 
-  /// |G x − e| ≤ tolerance (|G| |x| + |e|) in each row, up to the rounding of what it shares
-  /// unknowns with.
+  /// |G x − e| ≤ tolerance (|G| |x| + |e|) in each row, up to the rounding of rows that have unknowns
+  /// in common with it.
   [[nodiscard]] bool meets(vector_type const& x, S const& tolerance) const {
-    S const rounding = S(64) * std::numeric_limits<S>::epsilon();
+    S const rounding = S(64) * detail::epsilon<S>();
     sparse_type const sizes = G_.cwiseAbs();
     vector_type const terms = sizes * x.cwiseAbs() + unit_values_.cwiseAbs();
     vector_type const shared = sizes * vector_type(sizes.transpose() * terms);
@@ -197,12 +196,12 @@ class equality_constraints {
   }
 
   static sparse_type rows_of(sparse_type const& G, std::vector<index> const& rows) {
-    std::vector<int> place(static_cast<std::size_t>(G.rows()), -1);
+    std::vector<int> place(std::size_t(G.rows()), -1);
     int count = 0;
-    for (index const row : rows) place[static_cast<std::size_t>(row)] = count++;
+    for (index const row : rows) place[std::size_t(row)] = count++;
     std::vector<Eigen::Triplet<S>> entries;
     detail::for_each_entry(G, [&](index i, index j, S const& value) {
-      int const row = place[static_cast<std::size_t>(i)];
+      int const row = place[std::size_t(i)];
       if (row >= 0) entries.emplace_back(row, static_cast<int>(j), value);
     });
     sparse_type selected(count, G.cols());
@@ -216,7 +215,7 @@ class equality_constraints {
     using std::abs;
     auto const left_out = redundant();
     if (left_out.empty()) return;
-    S const rounding = S(4096) * std::numeric_limits<S>::epsilon();
+    S const rounding = S(4096) * detail::epsilon<S>();
     vector_type const kept_error = error(kept_);
     sparse_type const columns = unit_rows_.transpose();
     for (index const i : left_out) {
@@ -227,7 +226,13 @@ class equality_constraints {
         rest.noalias() -= G_.transpose() * h;
         combination += h;
       }
-      if (rest.norm() > rounding) refuse_row(i, rest.norm());
+      if (rest.norm() > rounding) {
+        throw bad_input("G",
+                        "row " + detail::show(i) + " at the distance " +
+                            detail::brief(S(rest.norm())) +
+                            " times its length from the span of others",
+                        "rows that are independent, or dependent up to rounding");
+      }
       S const implied = combination.dot(unit_values_);
       S const terms = abs(unit_e[i]) + combination.cwiseAbs().dot(unit_values_.cwiseAbs());
       S const allowed = rounding * terms + error[i] + combination.cwiseAbs().dot(kept_error);
@@ -237,12 +242,6 @@ class equality_constraints {
           detail::show(S(implied * lengths_[i])) + ", which other rows of G imply for this one")
           .at(i);
     }
-  }
-  [[noreturn]] static void refuse_row(index i, S const& distance) {
-    throw bad_input("G",
-                    "row " + detail::show(i) + " at the distance " + detail::brief(distance) +
-                        " times its length from the span of others",
-                    "rows that are independent, or dependent up to rounding");
   }
 
   index rows_;

@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -98,8 +97,7 @@ class constraint_rows {
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
         S sum(0), size(0);
         for (std::size_t k = 0; k < part.unknowns.size(); ++k) {
-          S const term = part.e(static_cast<index>(k), static_cast<index>(j)) *
-                         entries.coeff(part.unknowns[k]);
+          S const term = part.e(index(k), index(j)) * entries.coeff(part.unknowns[k]);
           sum += term;
           size += abs(term);
         }
@@ -110,7 +108,7 @@ class constraint_rows {
 
  private:
   void check_bound(index i, int const* begin) const {
-    if (!(c_[i] > -std::numeric_limits<S>::infinity())) {
+    if (!(c_[i] > -detail::infinity<S>())) {
       throw bad_input("c", detail::show(c_[i]), "a number or +inf").at(i);
     }
     if (begin[i] == begin[i + 1] && c_[i] < S(0)) {
@@ -132,7 +130,7 @@ class constraint_rows {
       S const reciprocal = S(1) / units_[i];
       for (entry e(b, i); e; ++e) e.valueRef() *= reciprocal;
       c_[i] *= reciprocal;
-      if (c_[i] > -std::numeric_limits<S>::infinity()) continue;
+      if (c_[i] > -detail::infinity<S>()) continue;
       throw bad_input("c", "a bound " + detail::show(units_[i]) + " times a number out of range",
                       "one that a u of numbers within the range can satisfy")
           .at(i);
@@ -143,37 +141,36 @@ class constraint_rows {
     using entry = typename Eigen::SparseMatrix<S, Eigen::RowMajor>::InnerIterator;
     detail::union_find sets(unknowns_);
     for (index i = 0; i < b.rows(); ++i) {
-      if (!(c_[i] < std::numeric_limits<S>::infinity())) continue;
+      if (!(c_[i] < detail::infinity<S>())) continue;
       for (entry e(b, i); e; ++e) sets.join(entry(b, i).col(), e.col());
     }
     lengths_ = vector_type::Zero(b.rows());
-    std::vector<index> cluster_of(static_cast<std::size_t>(unknowns_), -1);
-    std::vector<index> place(static_cast<std::size_t>(unknowns_), -1);
+    std::vector<index> cluster_of(std::size_t(unknowns_), -1);
+    std::vector<index> place(std::size_t(unknowns_), -1);
     for (index i = 0; i < b.rows(); ++i) {
       entry const first(b, i);
-      if (!first || !(c_[i] < std::numeric_limits<S>::infinity())) continue;
-      auto& number = cluster_of[static_cast<std::size_t>(sets.find(first.col()))];
+      if (!first || !(c_[i] < detail::infinity<S>())) continue;
+      auto& number = cluster_of[std::size_t(sets.find(first.col()))];
       if (number < 0) {
-        number = static_cast<index>(clusters_.size());
+        number = index(clusters_.size());
         clusters_.emplace_back();
       }
-      cluster& part = clusters_[static_cast<std::size_t>(number)];
+      cluster& part = clusters_[std::size_t(number)];
       part.rows.push_back(i);
       for (entry e(b, i); e; ++e) {
-        index& at = place[static_cast<std::size_t>(e.col())];
+        index& at = place[std::size_t(e.col())];
         if (at >= 0) continue;
-        at = static_cast<index>(part.unknowns.size());
+        at = index(part.unknowns.size());
         part.unknowns.push_back(e.col());
       }
     }
     for (cluster& part : clusters_) {
-      part.e.setZero(static_cast<index>(part.unknowns.size()),
-                     static_cast<index>(part.rows.size()));
+      part.e.setZero(index(part.unknowns.size()), index(part.rows.size()));
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
         for (entry e(b, part.rows[j]); e; ++e) {
-          part.e(place[static_cast<std::size_t>(e.col())], static_cast<index>(j)) = e.value();
+          part.e(place[std::size_t(e.col())], index(j)) = e.value();
         }
-        vector_type const row = part.e.col(static_cast<index>(j));
+        vector_type const row = part.e.col(index(j));
         lengths_[part.rows[j]] = slant::norm(row);
       }
     }
@@ -188,8 +185,6 @@ class constraint_rows {
 
 template <class M, class V>
 constraint_rows(Eigen::SparseMatrixBase<M> const&, V const&) -> constraint_rows<typename M::Scalar>;
-
-// --- polyhedral qp -------------------------------------------------------------------------------
 
 /// What polyhedral_qp asks of K, f and Q.
 template <class K, class V, class Q>

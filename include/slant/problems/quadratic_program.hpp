@@ -100,16 +100,16 @@ struct program_demands {
   static constexpr bool told = composite_demands<QP>::told;
 };
 
-/// Of the set, where a method follows faces.
+/// And of that set, where a method follows faces.
 template <class QP>
 struct active_set_demands {
-  static constexpr bool told = true;
+  static constexpr bool told = program_demands<QP>::told;
 };
 template <askable_program QP>
 struct active_set_demands<QP> {
   static_assert(active_set_domain<typename QP::set_type, local_t<typename QP::vector_type>>,
                 "the set must be made of blocks with state(x) and step_to_boundary(x, d)");
-  static constexpr bool told = true;
+  static constexpr bool told = program_demands<QP>::told;
 };
 
 /// The scalar of a program, double of what is none: deduction does not fail there, so that it can
@@ -127,24 +127,19 @@ struct vector_of<QP> {
   using type = typename QP::vector_type;
 };
 
-/// State and options of a method of which only the vectors are known.
-template <class QP>
-using state_of_vectors = refused_state<typename QP::vector_type>;
-template <class S>
-using without_options = no_options;
-
-/// A method that refuses the program QP, with the state State<QP> and Options<scalar>.
-template <class QP, template <class> class State, template <class> class Options>
+/// A method that refuses the program QP, with the state and the options that it would have had.
+template <class QP, class State, class Options>
 struct refusal {
   using type = refused_method<void, void>;
 };
-template <class QP, template <class> class State, template <class> class Options>
+template <class QP, class State, class Options>
   requires composite_problem<QP> || was_refused<QP>
 struct refusal<QP, State, Options> {
-  using type = refused_method<typename QP::vector_type, State<QP>, Options<typename QP::scalar>>;
+  using vectors = typename QP::vector_type;
+  using state = std::conditional_t<std::is_void_v<State>, refused_state<vectors>, State>;
+  using type = refused_method<vectors, state, Options>;
 };
-template <class QP, template <class> class State = state_of_vectors,
-          template <class> class Options = without_options>
+template <class QP, class State = void, class Options = no_options>
 using refused_program = typename refusal<std::remove_cvref_t<QP>, State, Options>::type;
 
 }  // namespace slant::detail

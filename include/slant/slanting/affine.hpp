@@ -149,8 +149,6 @@ template <operand A, class C>
   return detail::shifted_by<false>(slant::linear(std::forward<A>(a)), std::forward<C>(c));
 }
 
-// --- identity ------------------------------------------------------------------------------------
-
 /// F(y) = y on n unknowns, F° = I.
 class identity_map : public slanting_base {
  public:

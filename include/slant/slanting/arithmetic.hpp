@@ -32,8 +32,6 @@
 
 namespace slant {
 
-// --- sum -----------------------------------------------------------------------------------------
-
 namespace detail {
 
 /// Temporaries of each term; `other` holds the values of all but the first, one after the other.
@@ -208,8 +206,6 @@ template <expr::number_in_front S, slanting_part F>
   }
   return detail::scale_by(number, std::forward<F>(f));
 }
-
-// --- arithmetic ----------------------------------------------------------------------------------
 
 /// An operator or Eigen matrix that is not itself a slanting function.
 template <class A> concept linear_factor = operand<A> && !slanting_map<A>;

@@ -192,8 +192,6 @@ class inequality_curvature {
   std::vector<int> curved_;
 };
 
-// --- inequalities --------------------------------------------------------------------------------
-
 namespace detail {
 
 /// Says which block has no smooth inequality form.

@@ -158,8 +158,6 @@ void with_block_size(inequality_run const& run, F const& f) {
 
 namespace slant {
 
-// --- inequality jacobian -------------------------------------------------------------------------
-
 /// y = J x. Made by the slanting function `inequalities`.
 template <class S>
 class inequality_jacobian {

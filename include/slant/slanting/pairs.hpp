@@ -314,10 +314,6 @@ class positive_part_map : public slanting_base {
   index n_;
 };
 
-/// max(F(y), G(y)) componentwise. F and G are `Function const&` or function types (owned).
-template <class F, class G>
-using max_map = detail::pointwise_pair<detail::max_kernel, F, G>;
-
 /// y ↦ max(0, y) on n unknowns.
 [[nodiscard]] inline positive_part_map positive_part(index n) {
   return positive_part_map(n);
@@ -334,7 +330,8 @@ template <slanting_part F>
 /// @throws bad_input if the sizes differ.
 template <slanting_part F, slanting_part G>
 [[nodiscard]] auto max(F&& f, G&& g) {
-  return max_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
+  return detail::pointwise_pair<detail::max_kernel, kept_t<F>, kept_t<G>>(std::forward<F>(f),
+                                                                          std::forward<G>(g));
 }
 
 // --- min -----------------------------------------------------------------------------------------
@@ -345,15 +342,12 @@ template <slanting_part F, slanting_part G>
 // Kinks. min(F, G) = F − max(0, F − G): where F(y)_i = G(y)_i the row is that of G°. So
 // min(x, ρ r(x)) has the same slanting operator as the natural residual x − P₊(x − ρ r(x)).
 
-/// min(F(y), G(y)) componentwise. F and G are `Function const&` or function types (owned).
-template <class F, class G>
-using min_map = detail::pointwise_pair<detail::min_kernel, F, G>;
-
 /// y ↦ min(F(y), G(y)) componentwise. Lvalues are referenced.
 /// @throws bad_input if the sizes differ.
 template <slanting_part F, slanting_part G>
 [[nodiscard]] auto min(F&& f, G&& g) {
-  return min_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
+  return detail::pointwise_pair<detail::min_kernel, kept_t<F>, kept_t<G>>(std::forward<F>(f),
+                                                                          std::forward<G>(g));
 }
 
 // --- fischer burmeister --------------------------------------------------------------------------
@@ -422,15 +416,12 @@ struct fischer_burmeister_kernel {
 
 }  // namespace detail
 
-/// √(F² + G²) − F − G componentwise. F and G are `Function const&` or function types (owned).
-template <class F, class G>
-using fischer_burmeister_map = detail::pointwise_pair<detail::fischer_burmeister_kernel, F, G>;
-
 /// y ↦ √(F(y)² + G(y)²) − F(y) − G(y) componentwise. Lvalues are referenced.
 /// @throws bad_input if the sizes differ.
 template <slanting_part F, slanting_part G>
 [[nodiscard]] auto fischer_burmeister(F&& f, G&& g) {
-  return fischer_burmeister_map<kept_t<F>, kept_t<G>>(std::forward<F>(f), std::forward<G>(g));
+  return detail::pointwise_pair<detail::fischer_burmeister_kernel, kept_t<F>, kept_t<G>>(
+      std::forward<F>(f), std::forward<G>(g));
 }
 
 }  // namespace slant

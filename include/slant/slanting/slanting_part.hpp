@@ -37,8 +37,6 @@ concept slanting_part =
 
 namespace slant::detail {
 
-// --- vectors and sizes ---------------------------------------------------------------------------
-
 /// Vectors are kept like any part; expressions are evaluated, lest they refer to what is gone.
 template <class C>
 inline constexpr bool is_plain_vector =
@@ -89,8 +87,6 @@ template <law_set L, operand D>
     return std::remove_cvref_t<D>(std::forward<D>(d));
   }
 }
-
-// --- functions as text ---------------------------------------------------------------------------
 
 /// What F(y) looks like.
 struct written {

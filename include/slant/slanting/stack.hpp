@@ -36,8 +36,6 @@ stacked_part_workspace(Inner, Vector) -> stacked_part_workspace<Inner, Vector>;
 
 namespace slant {
 
-// --- stack ---------------------------------------------------------------------------------------
-
 /// (F₁(y); F₂(y); …). Each F is `Function const&` (referenced) or a function type (owned).
 template <class... F>
 class stack_map : public slanting_base {

@@ -97,8 +97,6 @@ template <symmetrizable M>
   return detail::newton_parts<M>::scaled_part(m).template factor<0>();
 }
 
-// --- symmetrized ---------------------------------------------------------------------------------
-
 namespace detail {
 
 /// `first` and `second` are vectors, `slant` and `matrix` workspaces of G and A.

@@ -29,7 +29,6 @@
 #include <slant/methods/successive_approximations.hpp>
 #include <slant/methods/symmetric_newton.hpp>
 #include <slant/newton/forcing.hpp>
-#include <slant/newton/globalisation.hpp>
 #include <slant/newton/krylov_solvers.hpp>
 #include <slant/newton/semismooth_newton.hpp>
 #include <slant/operators/identity.hpp>

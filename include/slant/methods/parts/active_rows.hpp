@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace slant {
@@ -32,7 +31,7 @@ class active_rows {
   using rows_type = constraint_rows<S>;
   using vector_type = typename rows_type::vector_type;
 
-  explicit active_rows(rows_type const& rows) : active_(static_cast<std::size_t>(rows.count()), 0) {
+  explicit active_rows(rows_type const& rows) : active_(std::size_t(rows.count()), 0) {
     for (auto const& part : rows.clusters()) {
       index const n = part.e.rows();
       index const m = part.e.cols();
@@ -41,11 +40,9 @@ class active_rows {
   }
 
   /// Is row i in J?
-  [[nodiscard]] bool contains(index i) const { return active_[static_cast<std::size_t>(i)] != 0; }
+  [[nodiscard]] bool contains(index i) const { return active_[std::size_t(i)] != 0; }
   /// Number of rows in J.
-  [[nodiscard]] index size() const {
-    return static_cast<index>(std::count(active_.begin(), active_.end(), 1));
-  }
+  [[nodiscard]] index size() const { return index(std::count(active_.begin(), active_.end(), 1)); }
 
   /// J ← { i : in(i) }. Returns the number of rows that came or went.
   template <class In>
@@ -56,7 +53,7 @@ class active_rows {
       index changed = 0;
       for (index const i : part.rows) {
         unsigned char const now = in(i) ? 1 : 0;
-        auto& before = active_[static_cast<std::size_t>(i)];
+        auto& before = active_[std::size_t(i)];
         changed += now != before ? 1 : 0;
         before = now;
       }
@@ -65,7 +62,7 @@ class active_rows {
       auto& basis = rooms_[k].basis;
       basis.clear();
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
-        if (contains(part.rows[j])) basis.append(part.e, static_cast<index>(j));
+        if (contains(part.rows[j])) basis.append(part.e, index(j));
       }
     }
     return changes;
@@ -88,9 +85,7 @@ class active_rows {
   /// tight.
   template <class V>
   void project_on_cone(rows_type const& rows, V const& r, V& d, vector_type& λ) {
-    auto const bound = [&](index i) {
-      return contains(i) ? S(0) : std::numeric_limits<S>::infinity();
-    };
+    auto const bound = [&](index i) { return contains(i) ? S(0) : detail::infinity<S>(); };
     vectors::copy(r, d);
     (void)nearest(rows, d, λ, bound, [&](auto const& part) {
       return std::any_of(part.rows.begin(), part.rows.end(), [&](index i) { return contains(i); });
@@ -123,12 +118,12 @@ class active_rows {
       auto& w = rooms_[k].inside;
       gather(part.unknowns, u, w.x);
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
-        w.bounds[static_cast<index>(j)] = bound(part.rows[j]);
+        w.bounds[index(j)] = bound(part.rows[j]);
       }
       if (!w.find(part.e)) found = false;
       scatter(part.unknowns, w.x, u);
       for (std::size_t j = 0; j < part.rows.size(); ++j) {
-        λ[part.rows[j]] = w.λ[static_cast<index>(j)];
+        λ[part.rows[j]] = w.λ[index(j)];
       }
     }
     return found;
@@ -138,14 +133,14 @@ class active_rows {
   static void gather(std::vector<index> const& unknowns, V const& v, vector_type& x) {
     auto const& entries = slant::local(v);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
-      x[static_cast<index>(k)] = entries.coeff(unknowns[k]);
+      x[index(k)] = entries.coeff(unknowns[k]);
     }
   }
   template <class V>
   static void scatter(std::vector<index> const& unknowns, vector_type const& x, V& v) {
     auto& entries = slant::local(v);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
-      entries.coeffRef(unknowns[k]) = x[static_cast<index>(k)];
+      entries.coeffRef(unknowns[k]) = x[index(k)];
     }
   }
 
@@ -194,24 +189,21 @@ struct row_slacks {
   using rows_type = constraint_rows<S>;
   using vector_type = typename rows_type::vector_type;
 
-  vector_type slack;      ///< c − B u in the units of the rows; +infinity for rows that never act
-  vector_type sizes;      ///< the largest |b_i|ᵀ|u| + |c_i| since forget()
-  vector_type rates;      ///< b_iᵀq of the rows that q approaches, else 0
-  active_rows<S> active;  ///< J
-  index changes = 0;      ///< changes of J, however many rows came or went
-  index rows_changed = 0;  ///< rows that came or went
+  vector_type slack;  ///< c − B u in the units of the rows; +infinity for rows that never act
+  vector_type sizes;  ///< the largest |b_i|ᵀ|u| + |c_i| since forget()
+  vector_type rates = sizes;  ///< b_iᵀq of the rows that q approaches, else 0
+  active_rows<S> active;      ///< J
+  index changes = 0;          ///< changes of J, however many rows came or went
+  index rows_changed = 0;     ///< rows that came or went
 
   explicit row_slacks(rows_type const& rows)
-      : slack(rows.count()),
-        sizes(vector_type::Zero(rows.count())),
-        rates(vector_type::Zero(rows.count())),
-        active(rows) {}
+      : slack(rows.count()), sizes(vector_type::Zero(rows.count())), active(rows) {}
 
   /// c − B u, 0 where that cannot be told from 0.
   template <class V>
   void measure(rows_type const& rows, V const& u) {
     note_sizes(rows, u);
-    slack.setConstant(std::numeric_limits<S>::infinity());
+    slack.setConstant(detail::infinity<S>());
     rows.for_each_product(u, [&](index i, S const& value, S const&) {
       using std::abs;
       S const gap = rows.c()[i] - value;
@@ -264,7 +256,7 @@ struct row_slacks {
   template <class V>
   [[nodiscard]] S first_constraint(rows_type const& rows, V const& q, S const& unit,
                                    S const& noise) {
-    S α1 = std::numeric_limits<S>::infinity();
+    S α1 = detail::infinity<S>();
     rates.setZero();
     rows.for_each_product(q, [&](index i, S const& value, S const& size) {
       if (active.contains(i) || !(value > S(32) * ε() * size + noise * rows.length(i))) return;
@@ -291,7 +283,7 @@ struct row_slacks {
   }
 
  private:
-  static S ε() { return std::numeric_limits<S>::epsilon(); }
+  static S ε() { return detail::epsilon<S>(); }
 
   template <class In>
   bool change(rows_type const& rows, In in) {
@@ -323,13 +315,13 @@ concept has_columns_of_bodies = requires(Q const& q, index i) {
 template <class S, class Q>
 [[nodiscard]] index row_moved_by_columns(constraint_rows<S> const& rows, Q const& q) {
   using std::abs;
-  std::vector<index> cluster_of(static_cast<std::size_t>(rows.unknowns()), -1);
-  std::vector<index> place(static_cast<std::size_t>(rows.unknowns()), -1);
+  std::vector<index> cluster_of(std::size_t(rows.unknowns()), -1);
+  std::vector<index> place(std::size_t(rows.unknowns()), -1);
   for (std::size_t k = 0; k < rows.clusters().size(); ++k) {
     auto const& unknowns = rows.clusters()[k].unknowns;
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
-      cluster_of[static_cast<std::size_t>(unknowns[i])] = static_cast<index>(k);
-      place[static_cast<std::size_t>(unknowns[i])] = static_cast<index>(i);
+      cluster_of[std::size_t(unknowns[i])] = index(k);
+      place[std::size_t(unknowns[i])] = index(i);
     }
   }
   using vector_type = typename constraint_rows<S>::vector_type;
@@ -341,12 +333,12 @@ template <class S, class Q>
       bool meets = false;
       auto const for_each_term = [&](auto f) {
         for (entry e(u, j); e; ++e) {
-          auto const at = static_cast<std::size_t>(e.row());
+          auto const at = std::size_t(e.row());
           if (cluster_of[at] < 0) continue;
           meets = true;
-          auto const& part = rows.clusters()[static_cast<std::size_t>(cluster_of[at])];
+          auto const& part = rows.clusters()[std::size_t(cluster_of[at])];
           for (std::size_t r = 0; r < part.rows.size(); ++r) {
-            f(part.rows[r], part.e(place[at], static_cast<index>(r)) * e.value());
+            f(part.rows[r], part.e(place[at], index(r)) * e.value());
           }
         }
       };
@@ -357,7 +349,7 @@ template <class S, class Q>
       if (!meets) continue;
       index moved = -1;
       for_each_term([&](index row, S const&) {
-        S const noise = S(32) * std::numeric_limits<S>::epsilon() * sizes[row];
+        S const noise = S(32) * detail::epsilon<S>() * sizes[row];
         if (moved < 0 && !(abs(sums[row]) <= noise)) moved = row;
       });
       if (moved >= 0) return moved;
@@ -391,7 +383,7 @@ template <class S, class Q, class V>
     vectors::difference(q, p, scratch);
     rows.for_each_product(scratch, [&](index i, S const& value, S const& size) {
       using std::abs;
-      S const noise = S(1024) * std::numeric_limits<S>::epsilon() * (size + sizes[i]);
+      S const noise = S(1024) * detail::epsilon<S>() * (size + sizes[i]);
       if (!(abs(value) <= noise)) moved = true;
     });
     return moved;

@@ -55,16 +55,11 @@ class curved_minimum {
  public:
   using scalar = scalar_t<V>;
 
-  V t;      ///< the step, in range(G)
-  V image;  ///< A t
+  V t;          ///< the step, in range(G)
+  V image = t;  ///< A t
 
   curved_minimum(V const& prototype, index n, M const& m)
       : t(like(prototype, n)),
-        image(like(prototype, n)),
-        g_(like(prototype, n)),
-        p_(like(prototype, n)),
-        Ap_(like(prototype, n)),
-        z_(like(prototype, n)),
         weighed_(like(prototype, preconditioned ? n : 0)),
         m_workspace_(workspace(m, prototype)) {}
 
@@ -160,10 +155,10 @@ class curved_minimum {
     return false;
   }
 
-  V g_;        // Π r + H t
-  V p_;        // direction
-  V Ap_;       // its image
-  V z_;        // preconditioned g, then H p
+  V g_ = t;    // Π r + H t
+  V p_ = t;    // direction
+  V Ap_ = t;   // its image
+  V z_ = t;    // preconditioned g, then H p
   V weighed_;  // M W g, or A z
   workspace_t<M, V> m_workspace_;
 };
@@ -182,16 +177,12 @@ template <class V>
 struct newton_segment {
   using scalar = scalar_t<V>;
 
-  V y;         ///< may leave Λ by terms of second order
-  V z;         ///< y − ρ (A y − b)
-  V target_y;  ///< y at the end of the full step
-  V target_z;  ///< z at the end of the full step
+  V y;             ///< may leave Λ by terms of second order
+  V z = y;         ///< y − ρ (A y − b)
+  V target_y = y;  ///< y at the end of the full step
+  V target_z = y;  ///< z at the end of the full step
 
-  newton_segment(V const& prototype, index n)
-      : y(like(prototype, n)),
-        z(like(prototype, n)),
-        target_y(like(prototype, n)),
-        target_z(like(prototype, n)) {}
+  newton_segment(V const& prototype, index n) : y(like(prototype, n)) {}
 
   /// ‖F‖ at the fraction β of the step; projected = P_Λ(z) there, trial is scratch.
   template <class Set>

@@ -5,6 +5,7 @@
 // indicator of Λ the proximal map prox_{αφ} takes the place of P_Λ.
 #pragma once
 
+#include <slant/base/held.hpp>
 #include <slant/base/report.hpp>
 #include <slant/base/scaling.hpp>
 #include <slant/base/vector_algebra.hpp>
@@ -13,11 +14,14 @@
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/spectrum.hpp>
+#include <slant/operators/identity.hpp>
 #include <slant/problems/quadratic_program.hpp>
 #include <slant/sets/proximal_step.hpp>
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -56,8 +60,6 @@ template <class V>
   return product > bound + noise ? product : bound;
 }
 
-// --- gradient point ------------------------------------------------------------------------------
-
 namespace detail {
 
 /// The status of a state with r̃: converged where it vanishes, breakdown where it is no number.
@@ -83,17 +85,54 @@ void check_start_in_set(V const& x0, V const& b) {
 
 }  // namespace detail
 
+namespace detail {
+
+/// A program with options and a preconditioner M ≈ A⁻¹: what methods that solve linear systems are
+/// made of. The identity stands for no preconditioner.
+template <class QP, class M, template <class> class Options>
+class preconditioned_program {
+ public:
+  using problem = std::remove_cvref_t<QP>;
+  using preconditioner = std::remove_cvref_t<M>;
+  using vector_type = typename problem::vector_type;
+  using scalar = typename problem::scalar;
+  using options = Options<scalar>;
+
+  /// Throws bad_input for options out of range.
+  explicit preconditioned_program(held<QP> qp, options o = {})
+    requires std::same_as<preconditioner, identity_operator>
+      : qp_(std::move(qp)), m_(identity_operator(qp_.get().size())), options_(std::move(o)) {
+    options_.validate();
+  }
+  /// Throws bad_input if the size of M is not that of the problem, or for options out of range.
+  preconditioned_program(held<QP> qp, held<M> m, options o = {})
+      : qp_(std::move(qp)), m_(std::move(m)), options_(std::move(o)) {
+    check_size("rows of the preconditioner", index(m_.get().rows()), qp_.get().size());
+    check_size("columns of the preconditioner", index(m_.get().cols()), qp_.get().size());
+    options_.validate();
+  }
+
+ protected:
+  static constexpr bool preconditioned = !std::same_as<preconditioner, identity_operator>;
+
+  held<QP> qp_;
+  held<M> m_;
+  options options_;
+};
+
+}  // namespace detail
+
 /// A point of the set of a quadratic program QP, or of the domain of φ. Vectors have qp.size() entries.
 template <class QP>
 struct gradient_point {
   using vector_type = typename QP::vector_type;
   using scalar = typename QP::scalar;
 
-  vector_type x;          ///< in Λ
-  vector_type r;          ///< gradient A x − b, in multiples of unit
-  vector_type projected;  ///< P_Λ(x − α̃ r)
-  vector_type reduced;    ///< reduced gradient r̃, in multiples of unit
-  vector_type trial;      ///< scratch
+  vector_type x;              ///< in Λ
+  vector_type r;              ///< gradient A x − b, in multiples of unit
+  vector_type projected = r;  ///< P_Λ(x − α̃ r)
+  vector_type reduced = r;    ///< reduced gradient r̃, in multiples of unit
+  vector_type trial = r;      ///< scratch
   workspace_t<typename QP::operator_type, vector_type> a_workspace;  ///< temporaries of A
 
   scalar unit{1};                   ///< of r and r̃, a power of two; see base/scaling.hpp
@@ -105,23 +144,19 @@ struct gradient_point {
   slant::work work{};
 
   gradient_point(QP const& qp, vector_type const& x0)
-      : x(x0),
-        r(like(x0, qp.size())),
-        projected(like(x0, qp.size())),
-        reduced(like(x0, qp.size())),
-        trial(like(x0, qp.size())),
-        a_workspace(workspace(qp.a(), x0)) {}
+      : x(x0), r(like(x0, qp.size())), a_workspace(workspace(qp.a(), x0)) {}
 
-  /// step_length as the options say, else `factor`/σ_max; σ_max to a few digits, 0 if it was not
-  /// asked for. Not inlined: g++ 12 would see *step_length read where there is none.
-  template <class Options>
-  [[nodiscard, gnu::noinline]] scalar set_step_length(QP const& qp, Options const& o,
-                                                      scalar const& factor) {
-    if (o.step_length) {
-      step_length = *o.step_length;
+  /// step_length as given, else `factor`/σ_max; σ_max to a few digits, 0 if it was not asked for.
+  /// Not inlined: g++ 12 would see *given read where there is none.
+  [[nodiscard, gnu::noinline]] scalar set_step_length(QP const& qp,
+                                                      std::optional<scalar> const& given,
+                                                      scalar const& factor,
+                                                      spectral_bound_options const& spectrum = {}) {
+    if (given) {
+      step_length = *given;
       return scalar(0);
     }
-    auto const safe = safe_gradient_step(qp.a(), x, factor, o.spectrum);
+    auto const safe = safe_gradient_step(qp.a(), x, factor, spectrum);
     step_length = safe.length;
     work.setup_applications += safe.applications;
     return safe.σ;
@@ -172,7 +207,7 @@ struct gradient_point {
     bool const keeps_digits = size_of_b >= std::numeric_limits<scalar>::min();
     scalar const length_of_b = keeps_digits ? size_of_b * unit : norm(qp.b());
     scalar const size = std::max<scalar>(length_of_b, norm(r));
-    bool const is_small = size < sqrt(std::numeric_limits<scalar>::epsilon()) * unit;
+    bool const is_small = size < sqrt(detail::epsilon<scalar>()) * unit;
     bool const is_other = is_small && size > scalar(0);
     if (is_other) unit = unit_near(size);
     size_of_b = length_of_b / unit;
@@ -194,14 +229,14 @@ struct gradient_point {
   /// q(x) / unit = ½ xᵀ(r − b) / unit, and a bound of its rounding error. No product is spent.
   [[nodiscard]] std::pair<scalar, scalar> energy(QP const& qp) {
     vectors::waxpy(-(scalar(1) / unit), qp.b(), r, trial);
-    scalar const noise = scalar(16) * std::numeric_limits<scalar>::epsilon() * norm(x);
+    scalar const noise = scalar(16) * detail::epsilon<scalar>() * norm(x);
     return {inner_product(x, trial) / scalar(2), noise * norm(trial)};
   }
 
   /// Rounding errors that ‖r̃‖ may consist of.
   [[nodiscard]] scalar rounding() const {
     scalar const of_terms = unit * (size_of_b + norm(r)) + norm(x) / step_length;
-    return scalar(32) * std::numeric_limits<scalar>::epsilon() * of_terms;
+    return scalar(32) * detail::epsilon<scalar>() * of_terms;
   }
 
   /// The accuracy reached, for sentences: "relative reduced gradient 1e-15 / 1, …".

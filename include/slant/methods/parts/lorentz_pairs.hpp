@@ -44,7 +44,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -220,7 +219,7 @@ class lorentz_pairs {
   /// sup{α : y + αΔy ∈ L}.
   template <class C>
   [[nodiscard]] S way_out(C const& set) const {
-    S most = std::numeric_limits<S>::infinity();
+    S most = detail::infinity<S>();
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
       second_order_cone<std::remove_cvref_t<decltype(at)>::M, S> const L(S(1));
       most = std::min<S>(most, L.step_to_boundary(of(at, λ_), of(at, dy_)));
@@ -289,7 +288,7 @@ class lorentz_pairs {
   void growth(C const& set, F const& f) const {
     visit_bound(set, [&](auto const&, auto const&, auto const& at) {
       S const y = y_[at.first];
-      f(at.row, S(y + force_step(at)[0]) / y);
+      f(at.row, S(y + unscaled(at, of(at, dy_))[0]) / y);
     });
   }
 
@@ -343,11 +342,6 @@ class lorentz_pairs {
     S const along = detail::dot_of(v, x) / v[0];
     S const per_β = sqrt(S(root_y_[at.number] / root_p_[at.number]));
     return detail::combination(S(per_β * along), v, S(-per_β), algebra::reflected(x));
-  }
-  /// Δy.
-  template <class At>
-  [[nodiscard]] part_of<At> force_step(At const& at) const {
-    return unscaled(at, of(at, dy_));
   }
   /// c ← c − f λ_⊥ |w̄_t|²/w̄_0², λ_⊥ the part of λ_t across w̄_t.
   template <class At, class Part>

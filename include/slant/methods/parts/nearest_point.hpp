@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace slant::detail {
@@ -40,12 +39,12 @@ class row_basis {
         R_(matrix_type::Zero(Q_.cols(), Q_.cols())),
         h_(Q_.cols()),
         v_(rows) {
-    members_.reserve(static_cast<std::size_t>(Q_.cols()));
+    members_.reserve(std::size_t(Q_.cols()));
   }
 
-  [[nodiscard]] index size() const noexcept { return static_cast<index>(members_.size()); }
+  [[nodiscard]] index size() const noexcept { return index(members_.size()); }
   /// Number of the k-th column taken in.
-  [[nodiscard]] index member(index k) const { return members_[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] index member(index k) const { return members_[std::size_t(k)]; }
   void clear() noexcept { members_.clear(); }
 
   /// Takes column i of E in; false if it is in the span already, up to rounding.
@@ -74,10 +73,10 @@ class row_basis {
     index kept = k;
     for (index j = k + 1; j < last; ++j) {
       index const i = member(j);
-      members_.resize(static_cast<std::size_t>(kept));
+      members_.resize(std::size_t(kept));
       if (append(e, i)) ++kept;
     }
-    members_.resize(static_cast<std::size_t>(kept));
+    members_.resize(std::size_t(kept));
   }
 
   /// x ← x − Q Qᵀx, the part orthogonal to all members; a is set to the least-squares coefficients
@@ -97,7 +96,7 @@ class row_basis {
  private:
   /// Sine of the angle between a column and the span below which it counts as dependent: some
   /// digits more than the rounding errors of rows that were computed in two ways.
-  static S dependence() { return S(4096) * std::numeric_limits<S>::epsilon(); }
+  static S dependence() { return S(4096) * detail::epsilon<S>(); }
 
   void solve(vector_type& a) const {
     for (index k = size(); k-- > 0;) {
@@ -113,8 +112,6 @@ class row_basis {
   vector_type v_;  // scratch
   std::vector<index> members_;
 };
-
-// --- nearest point -------------------------------------------------------------------------------
 
 /// The working room of nearest_point for an E with these sizes; keeps the rows in use from one call
 /// to the next.
@@ -162,7 +159,7 @@ struct nearest_point {
   [[nodiscard]] S noise(matrix_type const& e, index i) const {
     S const size = e.col(i).norm() * std::max<S>(start_.stableNorm(), x.stableNorm());
     using std::abs;
-    return S(16) * std::numeric_limits<S>::epsilon() * (size + abs(bounds[i]));
+    return S(16) * detail::epsilon<S>() * (size + abs(bounds[i]));
   }
   [[nodiscard]] S violation(matrix_type const& e, index i) const {
     return e.col(i).dot(x) - bounds[i];
@@ -191,7 +188,7 @@ struct nearest_point {
     index row = -1;
     S most(0);
     for (index i = 0; i < e.cols(); ++i) {
-      bool const is_bound = bounds[i] < std::numeric_limits<S>::infinity();
+      bool const is_bound = bounds[i] < detail::infinity<S>();
       if ((used_[i] != 0 && allowed == S(1)) || !is_bound) continue;
       S const v = violation(e, i);
       if (!(v > allowed * noise(e, i))) continue;
@@ -211,8 +208,8 @@ struct nearest_point {
       S const length = z_.norm();
       basis.take_out(z_, a_);
       S const rest = z_.norm();
-      constexpr S infinity = std::numeric_limits<S>::infinity();
-      bool const independent = rest > S(4096) * std::numeric_limits<S>::epsilon() * length;
+      constexpr S infinity = detail::infinity<S>();
+      bool const independent = rest > S(4096) * detail::epsilon<S>() * length;
       S const full = independent ? S(violation(e, q) / (rest * rest)) : infinity;
       S t = full;
       index leaves = -1;

@@ -16,7 +16,6 @@
 #include <slant/krylov/flat_direction.hpp>
 
 #include <cmath>
-#include <limits>
 
 namespace slant {
 
@@ -24,7 +23,7 @@ namespace slant {
 template <class V, class S>
 [[nodiscard]] S flatness(V const& p, S σ) {
   S const size = norm(p);
-  return std::numeric_limits<S>::epsilon() * size * (size * σ);
+  return detail::epsilon<S>() * size * (size * σ);
 }
 
 /// The same for the direction of a CG method; 0 if A is declared definite, which has no kernel.
@@ -46,7 +45,7 @@ template <bool Definite, class Directions, class S>
 template <class V, class S>
 [[nodiscard]] S kernel_image(V const& d, S σ) {
   using std::sqrt;
-  return S(32) * std::numeric_limits<S>::epsilon() * sqrt(S(slant::global_size(d))) * norm(d) * σ;
+  return S(32) * detail::epsilon<S>() * sqrt(S(slant::global_size(d))) * norm(d) * σ;
 }
 
 /// Is q unbounded along d, with the image A d?
@@ -60,7 +59,7 @@ template <class QP, class State, class V, class S>
   S const slope = inner_product(d, qp.b()) / s.unit;
   return norm(image) <= kernel_image(d, σ) && is_descent(slope, d, S(4) * s.size_of_b) &&
          !(slant::minimum(s.x, qp.set().step_to_boundary(slant::local(s.x), slant::local(d))) <
-           std::numeric_limits<S>::infinity());
+           detail::infinity<S>());
 }
 
 /// Takes the part in range(A) out of a direction of descent d that does not leave Λ, and is flat or
@@ -100,7 +99,7 @@ template <class QP, class State, class Keep, class V, class S>
     vectors::axpy(-α, Aw, image);
   }
   // What is left of components that d does not have are rounding errors of the others.
-  S const nothing = S(8) * std::numeric_limits<S>::epsilon() * norm(d);
+  S const nothing = S(8) * detail::epsilon<S>() * norm(d);
   for (index i = 0; i < index(slant::local(d).size()); ++i) {
     S& entry = slant::local(d).coeffRef(i);
     if (abs(entry) <= nothing) entry = S(0);
@@ -153,7 +152,7 @@ class recession_watch {
       if (!(inner_product(s.trial, s.φ) > flatness(s.trial, s.σ / s.unit)) &&
           is_descent(slope, s.trial, S(s.size_of_b + norm(s.r))) &&
           !(slant::minimum(s.x, set.step_to_boundary(slant::local(s.x), slant::local(s.trial))) <
-            std::numeric_limits<S>::infinity())) {
+            detail::infinity<S>())) {
         vectors::scale(S(1) / unit_near(norm(s.trial)), s.trial);
         slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
         ++s.work.operator_applications;
