@@ -114,6 +114,15 @@ TEST_CASE("solve(qp, 1e-8): hard programs, degenerate and singular ones, tiny on
   }
 }
 
+TEST_CASE("solve(qp, tolerance): a solution without energy is one") {
+  MatrixXd const K = VectorXd{{1, 0}}.asDiagonal();
+  VectorXd const b{{0, -1}}, low{{0, 0.25}};
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(K);
+  auto const run = slant::solve(slant::separable_qp{A, b, slant::half_lines(low)}, 1e-8);
+  CHECK(run.converged());
+  CHECK(run.x() == low);
+}
+
 TEST_CASE("solve(qp, tolerance): scaled or not, x is in Λ to the last bit") {
   oracle::random_program p;
   p.A = MatrixXd{{3e6, 1e2, 0}, {1e2, 0.7, 1e-4}, {0, 1e-4, 1e-5}};
@@ -419,6 +428,17 @@ TEST_CASE("solve(program with equations, tolerance): rows that only units make a
   CHECK(run.converged());
   CHECK((run.x() - x).cwiseQuotient(x).norm() <= 1e-10);
   CHECK((run.multipliers - μ).norm() <= 1e-9);
+}
+
+TEST_CASE("solve(program with equations, tolerance): a large unknown of none of them") {
+  MatrixXd const K = VectorXd{{1e-12, 1, 1}}.asDiagonal();
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(K);
+  auto const set = slant::half_lines(VectorXd::Constant(3, -10));
+  Eigen::SparseMatrix<double> const G = MatrixXd{{0, 1, 1}}.sparseView();
+  VectorXd const b{{1e8, 0.3, 0.5}}, e{{1e-5}};
+  auto const run =
+      slant::solve(slant::minimise(slant::quadratic(A, b)).over(set).subject_to(G, e), 1e-8);
+  CHECK((!run.converged() || std::abs((G * run.x() - e)[0]) <= 1e-8));
 }
 
 TEST_CASE("solve(program with equations, tolerance): rows that are nearly dependent") {

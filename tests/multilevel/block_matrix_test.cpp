@@ -190,11 +190,9 @@ TEST_CASE("the inverse of definite matrices") {
 
 TEST_CASE("factors keep to the envelope, in whatever order the nodes of a mesh come") {
   // Two strips of 3 × 20 nodes of two unknowns, number 7 k mod 120 the k-th of them.
-  MatrixXd K = MatrixXd::Identity(240, 240);
+  MatrixXd K = 5 * MatrixXd::Identity(240, 240);
   auto const couple = [&](int k, int l) {
     int const i = 2 * (7 * k % 120), j = 2 * (7 * l % 120);
-    K.block<2, 2>(i, i) += gram(2, 2) + MatrixXd::Identity(2, 2);
-    K.block<2, 2>(j, j) += gram(2, 2) + MatrixXd::Identity(2, 2);
     K.block<2, 2>(i, j) << 0.2, -0.4, 0.3, 0.1;
     K.block<2, 2>(j, i) = K.block<2, 2>(i, j).transpose();
   };

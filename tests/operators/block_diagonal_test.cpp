@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <slant/factorizations/dense_ldlt.hpp>
 #include <slant/operators/operators.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
@@ -47,6 +48,9 @@ TEST_CASE("the inverse is block diagonal") {
   auto const a = slant::block_diagonal(d, slant::identity(2));
   static_assert(slant::has_inverse<decltype(a), VectorXd>);
   slant::testing::check_operator_laws(a);
+  auto const K = slant::op<"K">(slant::dense_ldlt<double>(test::random_spd(3, 5)));
+  auto const inverses = slant::block_diagonal(slant::inverse(K), slant::inverse(K));
+  static_assert(!slant::has_inverse<decltype(inverses), VectorXd>);  // K is a name, no operator
 }
 
 TEST_CASE("parts that know only their own vector type work on copies") {

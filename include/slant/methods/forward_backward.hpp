@@ -58,7 +58,7 @@ struct forward_backward_state : gradient_point<QP> {
   using typename gradient_point<QP>::scalar;
 
   vector_type previous = this->x;           ///< x₋
-  vector_type previous_gradient = this->r;  ///< r(x₋), in multiples of unit
+  vector_type previous_gradient = this->x;  ///< r(x₋), in multiples of unit
   vector_type y = this->x;                  ///< where the last step began
   progress_watch<scalar> progress;
   scalar momentum{1};  ///< t

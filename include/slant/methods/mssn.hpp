@@ -143,6 +143,7 @@ struct modified_newton_options {
   S step_factor = S(1.9);          ///< β > 0; below 2 for gimssn, whose descent it guarantees
   index max_inner = 1000;          ///< inner iterations a step at most
   index patience = 100;  ///< steps in which neither ‖r̃‖ nor q falls that mean stalled
+
   [[gnu::cold]] void validate() const {
     forcing.validate();
     if (step_length) detail::check_positive("step_length", *step_length);

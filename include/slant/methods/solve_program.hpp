@@ -125,7 +125,11 @@ template <class V, class S, class Make, class Certificate>
       vectors::copy(state.x, result.point);
       break;
     }
-    auto const now = certificate(state.x);
+    auto now = certificate(state.x);
+    // No relative error of a point without energy is finite but 0, and that is what it is here.
+    if (now.size == S(0) && end.how == status::converged && state.reduced_gradient_norm == S(0)) {
+      now.bound = S(0);
+    }
     S const error = now.relative();
     // Further steps may have led away from the best point.
     if (error < best || !is_finite(best)) {

@@ -65,7 +65,7 @@ struct search_point {
   S linear_residual{0};  ///< ‖F(y) + F°(y) dy‖
 };
 
-/// A rule for the length of Newton steps; see the top of this file.
+/// A rule for the length of Newton steps; see above.
 template <class G, class S>
 concept globalisation = requires(G const& g, search_point<S> const& p) {
   S(g.first_length());

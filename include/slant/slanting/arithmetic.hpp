@@ -235,6 +235,15 @@ template <slanting_map F, constant_term C>
   return detail::shifted_by<true>(std::forward<F>(f), std::forward<C>(c));
 }
 
+template <constant_term C, slanting_map F>
+[[nodiscard]] auto operator+(C&& c, F&& f) {
+  return detail::shifted_by<false>(std::forward<F>(f), std::forward<C>(c));
+}
+template <constant_term C, slanting_map F>
+[[nodiscard]] auto operator-(C&& c, F&& f) {
+  return detail::shifted_by<false>(-std::forward<F>(f), std::forward<C>(c));
+}
+
 template <class S, slanting_map F>
   requires expr::number_in_front<S>
 [[nodiscard]] auto operator*(S const& c, F&& f) {

@@ -2,7 +2,8 @@
 //
 // A point of Λ with its gradient and reduced gradient, and the units and scales that go with them:
 // what the states of projected gradient methods have in common. For another function φ than the
-// indicator of Λ the proximal map prox_{αφ} takes the place of P_Λ.
+// indicator of Λ the proximal map prox_{αφ} takes the place of P_Λ. And what these methods are made
+// of if they take a preconditioner.
 #pragma once
 
 #include <slant/base/held.hpp>
@@ -82,10 +83,6 @@ void check_start_in_set(V const& x0, V const& b) {
   check_size("x0", index(slant::local(x0).size()), index(slant::local(b).size()), "the size of b,");
   check_finite("x0", x0);
 }
-
-}  // namespace detail
-
-namespace detail {
 
 /// A program with options and a preconditioner M ≈ A⁻¹: what methods that solve linear systems are
 /// made of. The identity stands for no preconditioner.
