@@ -33,11 +33,8 @@ TEST_CASE("formulas say what they say on paper") {
 
   CHECK(at_y(id + p) == y + plus);
   CHECK(at_y(id - p) == y - plus);
-  CHECK(at_y(y - p) == y - plus);
-  CHECK(at_y(y + p) == y + plus);
-  CHECK(at_y(-p) == -plus);
+  CHECK(at_y(y - (y + p)) == -plus);
   CHECK(at_y(3.0 * p) == 3 * plus);
-  CHECK(at_y(2 * p) == 2 * plus);
   CHECK(at_y(slant::positive(0.5) * p) == plus / 2);
   CHECK(at_y(slant::any_sign(-2.5) * p) == -2.5 * plus);
   CHECK(at_y(p * (-id)) == VectorXd{{0.0, 2.0, 0.0}});  // composition
