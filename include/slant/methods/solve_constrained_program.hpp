@@ -44,7 +44,7 @@ template <class QP, class C, class M>
   constrained_newton_options<S> o;
   o.inner_steps = std::min<index>(o.inner_steps, most.applications);
   auto const run = [&](auto const& method, auto&& certificate) {
-    certified_point<V> result{.method = "constrained_newton"};
+    certified_point<V> result{.point = x0, .method = "constrained_newton"};
     auto state = method.start(x0);
     index for_multipliers = 0;
     auto const certify = [&](V const& x, V const& ν) {
@@ -57,7 +57,7 @@ template <class QP, class C, class M>
       S const best = result.error.relative();
       if (now.relative() < best || !is_finite(best)) {
         result.error = now;
-        result.point = x;
+        slant::project(qp.set(), x, result.point);  // which a last step may leave by a rounding
         result.multipliers = method.multipliers(state);
         ++for_multipliers;
       }
