@@ -102,7 +102,7 @@ TEST_CASE("no rows at all") {
   CHECK(constraints.meets(VectorXd::Ones(4), 0.0));
 }
 
-TEST_CASE("rows are met relative to their terms, up to the rounding of x") {
+TEST_CASE("rows are met relative to their terms, up to rounding") {
   MatrixXd const G{{1.0, 0.0, 0.0}, {0.0, 1.0, 1e-9}, {0.0, 1.0, 1.0}};
   slant::equality_constraints const c(sparse(G.sparseView()), VectorXd{{0.0, 1e-9, 1.0}});
   CHECK(c.meets(VectorXd{{1e-17, 0.0, 1.0}}, 0.0));  // a row whose terms vanish

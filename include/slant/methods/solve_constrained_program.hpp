@@ -122,8 +122,9 @@ template <class Original, class QP, class C, class S>
 
 /// Solves min ½ xᵀA x − bᵀx over x ∈ Λ, G x = e from 0; see the top of this file. `converged` means
 /// that the estimated error is at most the tolerance, and |G x − e| beside |G| |x| + |e| in each row,
-/// up to the rounding of rows that have unknowns in common with it; x is in Λ. Throws bad_input for a
-/// tolerance that is not in [0, 1), a limit < 0, or a program that constrained_newton refuses.
+/// up to the rounding of rows that have unknowns in common with it and, where e is 0, of x; x is in
+/// Λ. Throws bad_input for a tolerance that is not in [0, 1), a limit < 0, or a program that
+/// constrained_newton refuses.
 template <equality_constrained_program P>
   requires constrained_newton_problem<typename P::program_type, typename P::constraints_type>
 [[nodiscard]] auto solve(P const& p, typename P::scalar tolerance, index max_steps = 1000) {

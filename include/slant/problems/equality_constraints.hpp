@@ -144,12 +144,16 @@ class equality_constraints {
   vector_type const& nearest() const&& = delete;
 
   /// |G x − e| ≤ tolerance (|G| |x| + |e|) in each row, up to the rounding of rows that have unknowns
-  /// in common with it.
+  /// in common with it and, where e is 0 and has no size, of all of x.
   [[nodiscard]] bool meets(vector_type const& x, S const& tolerance) const {
     S const rounding = S(64) * detail::epsilon<S>();
     sparse_type const sizes = G_.cwiseAbs();
     vector_type const terms = sizes * x.cwiseAbs() + unit_values_.cwiseAbs();
-    vector_type const shared = sizes * vector_type(sizes.transpose() * terms);
+    vector_type shared = sizes * vector_type(sizes.transpose() * terms);
+    S const size = x.norm();
+    for (index i = 0; i < shared.size(); ++i) {
+      if (unit_values_[i] == S(0)) shared[i] += size;
+    }
     vector_type const rest = (G_ * x - unit_values_).cwiseAbs();
     return (rest.array() <= tolerance * terms.array() + rounding * shared.array()).all();
   }

@@ -75,7 +75,7 @@ struct envelope {
   std::vector<int> order;          // the row of A that is row I of the factors
   std::vector<int> place;          // the other way round
   std::vector<int> first;          // m_I
-  std::vector<std::size_t> begin;  // of block (I, 0), were it there, in a list of all; and the end
+  std::vector<std::size_t> begin;  // of block (I, m_I) in a list of all; and the end of that
 
   envelope() = default;
   template <int N, class T>
