@@ -186,6 +186,7 @@ struct face_minimum_release : kkt_release {
 /// breakdown (a number left the range of the scalar, or A was seen not to be semidefinite).
 template <class QP>
 class kprgp : public proportioning<QP, reduced_gradient_release> {
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -236,6 +237,7 @@ extern template class detail::proportioning_steps<any_qp<double, semidefinite_la
 /// expansion.
 template <class QP>
 class qpq : public proportioning<QP, kkt_release> {
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -256,6 +258,7 @@ qpq(QP&&, kprgp_options<detail::program_scalar_t<QP>> = {}) -> qpq<kept_t<QP>>;
 /// Requirements, options, statuses and cost are those of qpq.
 template <class QP>
 class qpc : public proportioning<QP, face_minimum_release> {
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:

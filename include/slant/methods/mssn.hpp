@@ -450,6 +450,7 @@ using mssn_options = modified_newton_options<S, fixed_forcing>;
 /// is P_Λ of them. Requires what kprgp does. Statuses of its own: see imssn.
 template <class QP>
 class mssn : public modified_newton<QP, frozen_start, unlimited_cg, fixed_forcing> {
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -481,6 +482,7 @@ using imssn_options = modified_newton_options<S, adaptive_precision>;
 /// definite on a face).
 template <class QP>
 class imssn : public modified_newton<QP, frozen_start, unlimited_cg, adaptive_precision> {
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:
@@ -506,6 +508,7 @@ imssn(QP&&, imssn_options<detail::program_scalar_t<QP>> = {}) -> imssn<kept_t<QP
 /// −state.directions.p); breakdown where A was seen not to be semidefinite.
 template <class QP>
 class gimssn : public modified_newton<QP, projected_start, feasible_cg, adaptive_precision> {
+  static_assert(detail::program_demands<std::remove_cvref_t<QP>>::told);
   static_assert(detail::active_set_demands<std::remove_cvref_t<QP>>::told);
 
  public:

@@ -134,6 +134,7 @@ template <class QP, class C>
 class smalse : public detail::refused_program<QP> {
   using problem = std::remove_cvref_t<QP>;
 
+  static_assert(detail::program_demands<problem>::told);
   static_assert(detail::active_set_demands<problem>::told);
   static_assert(!kprgp_problem<problem> ||
                     affine_space<std::remove_cvref_t<C>, typename detail::vector_of<problem>::type>,

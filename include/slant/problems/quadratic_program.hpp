@@ -103,13 +103,13 @@ struct program_demands {
 /// And of that set, where a method follows faces.
 template <class QP>
 struct active_set_demands {
-  static constexpr bool told = program_demands<QP>::told;
+  static constexpr bool told = true;
 };
 template <askable_program QP>
 struct active_set_demands<QP> {
   static_assert(active_set_domain<typename QP::set_type, local_t<typename QP::vector_type>>,
                 "the set must be made of blocks with state(x) and step_to_boundary(x, d)");
-  static constexpr bool told = program_demands<QP>::told;
+  static constexpr bool told = true;
 };
 
 /// The scalar of a program, double of what is none: deduction does not fail there, so that it can
