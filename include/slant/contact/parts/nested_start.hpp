@@ -80,7 +80,7 @@ class nested_start {
       g = vector_type(E.transpose() * g);
     }
     if (has_pairs()) {
-      K = sparse_type(E.transpose() * sparse_type(K * E));
+      K = congruent(K, E);
     } else {
       turn(K);
     }

@@ -111,8 +111,8 @@ struct envelope {
   [[nodiscard]] double work(int N) const {
     double sum = 0;
     for (std::size_t I = 0; I < first.size(); ++I) {
-      double const width = static_cast<double>(I) - first[I] + 1;
-      sum += width * width / 2;
+      double const left = static_cast<double>(I) - first[I];
+      sum += left * (left + 1) / 2;
     }
     return sum * N * N * N;
   }
