@@ -4,7 +4,7 @@
 // what it said before; headers of these functions then promise the compiler that their instances
 // exist elsewhere,
 //
-//     kprgp, symmetric_newton, interior_point, as, as_s
+//     kprgp, symmetric_newton, interior_point, as_s
 //                                   for erased programs (problems/any_qp.hpp)
 //     dense_ldlt                    also for float
 //     contact::solve                Tresca friction, each law and the choice by the data

@@ -76,7 +76,11 @@ template <class A, class M, class V, class WA>
     return sizes &&
            slant::norm(w.r) <= room * ε * (stiffest * (sizes->point / unit) + sizes->load / unit);
   };
-  // Once it is: its norm then, and the energy up to there, for if the rest is in the kernel.
+  // ‖r‖, 1 at first, is far below the rounding of d: products may be 0 by underflow, as where M is
+  // A⁻¹ but for rounding and each step leaves ε of r.
+  auto const is_gone = [&] { return slant::norm(w.r) <= ε * ε; };
+  // Once it is rounding: its norm then, and the energy up to there, for if the rest is in the
+  // kernel.
   S noise(-1), without_noise(0);
   while (k < most && rz > S(0)) {
     slant::apply(a, w.p, w.image, of_a);
@@ -91,6 +95,7 @@ template <class A, class M, class V, class WA>
     }
     if (!(quotient > flat)) {
       if (noise >= S(0)) return {unit * sqrt(without_noise), k};
+      if (is_gone()) break;
       return {is_rounding() ? S(unit * sqrt(energy)) : detail::infinity<S>(), k};
     }
     S const α = rz / bend, term = α * rz;
@@ -113,8 +118,7 @@ template <class A, class M, class V, class WA>
   }
   // M vanishes along what is left of d, or is not semidefinite, or d is not finite: nothing is
   // known of it.
-  if (!(rz > S(0)) && !(slant::norm(w.r) == S(0)) && !is_rounding())
-    return {detail::infinity<S>(), k};
+  if (!(rz > S(0)) && !is_gone() && !is_rounding()) return {detail::infinity<S>(), k};
   S const rest = noise >= S(0) ? S(0) : dominates ? rz : recent;
   return {unit * (sqrt(energy) + (rest > S(0) ? S(sqrt(rest)) : S(0))), k};
 }

@@ -102,7 +102,7 @@ class block_diagonal_operator {
   }
   /// diag(A₁⁻¹, A₂⁻¹, …).
   [[nodiscard]] auto inverse() const
-    requires(detail::knows_its_inverse_operator<std::remove_cvref_t<A>> && ...)
+    requires(detail::knows_its_inverse<std::remove_cvref_t<A>> && ...)
   {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
       return block_diagonal_operator<std::remove_cvref_t<decltype(part<false, I>().inverse())>...>(

@@ -59,10 +59,8 @@ template <class A, class X>
 concept shows_segment = std::is_same_v<local_t<X>, std::remove_cvref_t<X>> &&
                         requires(A const& a, X const& x) { a.segment(x); };
 
-template <class A> concept knows_its_inverse = requires(A const& a) { a.inverse(); };
-/// The inverse is an operator; that of K⁻¹ with a name for the factors of K is the name.
-template <class A>
-concept knows_its_inverse_operator = requires(A const& a) { a.inverse().cols(); };
+/// inverse() is an operator: that of K⁻¹ with a name for the factors of K is the name, and none.
+template <class A> concept knows_its_inverse = requires(A const& a) { a.inverse().cols(); };
 
 /// Columns first, first + 1, … of the identity on n unknowns, as many as y has columns.
 template <class Y>

@@ -92,7 +92,7 @@ class decorator {
   }
   /// The inverse of the operator inside. Its applications are its own: they are not probed.
   [[nodiscard]] auto inverse() const
-    requires knows_its_inverse_operator<part>
+    requires knows_its_inverse<part>
   {
     return a_.get().inverse();
   }
@@ -135,7 +135,7 @@ class declared_operator : public detail::decorator<A, detail::no_probe> {
 
   /// The inverse of A, with what the laws of A imply for it.
   [[nodiscard]] auto inverse() const
-    requires detail::knows_its_inverse_operator<std::remove_cvref_t<A>>
+    requires detail::knows_its_inverse<std::remove_cvref_t<A>>
   {
     using inverse_part = std::remove_cvref_t<decltype(this->get().inverse())>;
     return declared_operator<inverse_part, detail::inverse_laws(laws)>{

@@ -91,7 +91,7 @@ class kronecker_operator {
     }
   }
   [[nodiscard]] auto inverse() const
-    requires detail::knows_its_inverse_operator<left> && detail::knows_its_inverse_operator<right>
+    requires detail::knows_its_inverse<left> && detail::knows_its_inverse<right>
   {
     using of_a = std::remove_cvref_t<decltype(a_.get().inverse())>;
     using of_b = std::remove_cvref_t<decltype(b_.get().inverse())>;

@@ -189,7 +189,7 @@ class product : public base_of_node<F...> {
     }
   }
   [[nodiscard]] auto inverse() const
-    requires(slant::detail::knows_its_inverse_operator<F> && ...)
+    requires(slant::detail::knows_its_inverse<F> && ...)
   {
     return expr::make_product(
         expr::reciprocal_number(c_),
@@ -442,7 +442,7 @@ class sealed : public P {
     }
   }
   [[nodiscard]] auto inverse() const
-    requires slant::detail::knows_its_inverse_operator<P>
+    requires slant::detail::knows_its_inverse<P>
   {
     return sealed<decltype(P::inverse())>(P::inverse());
   }
