@@ -47,7 +47,8 @@ struct multigrid_options {
   Eigen::MatrixXd coordinates{};
   /// P of yours in place of aggregation, the one from level 1 to level 0 first, as interpolation on
   /// nested meshes: weights of nodes (nodes × coarse nodes) or matrices of unknowns. Aggregation
-  /// continues from a level with more than twice `coarsest` unknowns, unless its factors are cheap.
+  /// continues from a level with more than twice `coarsest` unknowns, unless its factors are cheap;
+  /// in space with rotations, if those of level 0 are known and all coarse nodes are fine nodes.
   std::vector<Eigen::SparseMatrix<double>> prolongations{};
   index block_size = 0;  ///< unknowns of a node, consecutive; 0: from the pattern of K, 1 to 3
   double strength = 0.02;  ///< θ in [0, 1): nodes i, j are neighbours if ‖K_ij‖² > θ² ‖K_ii‖ ‖K_jj‖
@@ -194,10 +195,11 @@ class hierarchy {
   /// Levels by aggregation until one is small enough. B: near kernel of level 0.
   void aggregate_all(near_kernel<N, M> const& B, multigrid_options const& o) {
     if (done(fine.A, o)) return;
-    auto below = aggregate_below(fine, B, o);
+    near_kernel<M, M> next;
+    auto below = aggregate_below(fine, B, o, next);
     if (!below) return;
     append(fine, std::move(*below));
-    aggregate_rest(o);
+    aggregate_rest(std::move(next), o);
   }
   /// The same where level 0 is G⁻ᵀK G⁻¹, of unknowns v = G u: P = G P_K, with P_K and near kernel
   /// those of factor · K.
@@ -207,33 +209,40 @@ class hierarchy {
     if (done(fine.A, o)) return;
     std::vector<double> unused;
     fine_level apart = level_of(k, factor, unused);
-    auto below = aggregate_below(apart, B, o);
+    near_kernel<M, M> next;
+    auto below = aggregate_below(apart, B, o, next);
     if (!below) return;
     apart = {};
     below->P = mixed_prolongation(below->P, g);
     below->C = galerkin_pattern(fine.A, below->P, fine.longest);
     append(fine, std::move(*below));
-    aggregate_rest(o);
+    aggregate_rest(std::move(next), o);
   }
   /// Levels by prolongations of the user, of unknowns v = G u where G is given, then by aggregation
-  /// until one is small enough.
-  template <class G>
-  void interpolate_all(multigrid_options const& o, G const* g) {
+  /// until one is small enough. B: near kernel of level 0, or nothing for constants.
+  template <class G, int W>
+  void interpolate_all(multigrid_options const& o, G const* g, near_kernel<N, W> B) {
     static_assert(N == M);
     for (std::size_t l = 0; l < o.prolongations.size(); ++l) {
       fine_level& above = l == 0 ? fine : coarse.back();
       auto P = prolongation_from<N, T>(o.prolongations[l], above.A.nodes(),
                                        "prolongation " + show(static_cast<index>(l)));
       auto nodes = heaviest_parents(P);
+      B = injected(P, B);
       if (l == 0 && g) P = mixed_prolongation(P, *g);
       auto kernel = constants<M, M>(P.coarse_nodes);
       append_by(above, std::move(P), std::move(nodes), std::move(kernel));
     }
-    // Aggregates would know translations only, which takes two or three times the cycles: factors
-    // for every face are better while they cost no more than four products with level 0.
+    // Aggregates take more cycles: factors for every face are better while they cost no more than
+    // four products with level 0.
     double const most = std::min(o.most_work(), 4.0 * double(fine.A.blocks()) * (N * N));
     auto const& A = coarse.back().A;
-    if (A.rows() / 2 > o.coarsest && envelope(A).work(M) > most) aggregate_rest(o);
+    if (A.rows() / 2 <= o.coarsest || envelope(A).work(M) <= most) return;
+    if (B.blocks.empty()) {
+      aggregate_rest(constants<M, M>(A.nodes()), o);
+    } else {
+      aggregate_rest(std::move(B), o);
+    }
   }
   /// Level 0 for factor · k = G⁻ᵀA G⁻¹, where A is level 1 of `finer` and G of unknowns or without
   /// rows for the identity; its other levels, formed anew if G couples what A does not.
@@ -335,21 +344,40 @@ class hierarchy {
     auto C = galerkin_pattern(above.A, P, above.longest);
     append(above, {std::move(P), std::move(C), std::move(aggregates), std::move(kernel)});
   }
-  void aggregate_rest(multigrid_options const& o) {
-    near_kernel<M, M> B = coarse.size() > 1 ? coarse[coarse.size() - 2].kernel : fine.kernel;
+  /// B: of the last level. Where that has more columns than a node has unknowns, each aggregate
+  /// becomes two nodes.
+  template <int W>
+  void aggregate_rest(near_kernel<M, W> B, multigrid_options const& o) {
     while (!done(coarse.back().A, o)) {
-      auto below = aggregate_below(coarse.back(), B, o);
+      near_kernel<W, W> next;
+      auto below = aggregate_below(coarse.back(), B, o, next);
       if (!below) return;
-      B = below->kernel;
+      B.blocks = std::move(next.blocks);
       append(coarse.back(), std::move(*below));
     }
   }
+  /// The near kernel of coarse nodes that are nodes of the fine level, as those of nested meshes are;
+  /// nothing if P does not say so of all.
+  template <int W>
+  static near_kernel<N, W> injected(prolongation<N, N, T> const& P, near_kernel<N, W> const& B) {
+    near_kernel<N, W> coarse;
+    if (B.blocks.empty() || !P.weights) return coarse;
+    std::vector<int> of(static_cast<std::size_t>(P.coarse_nodes), -1);
+    for (int i = 0; i < P.nodes(); ++i) {
+      int const e = P.begin(i);
+      if (P.end(i) == e + 1 && P.weight(e) == T(1)) of[static_cast<std::size_t>(P.at(e))] = i;
+    }
+    if (std::find(of.begin(), of.end(), -1) != of.end()) return coarse;
+    for (int const i : of) coarse.blocks.insert(coarse.blocks.end(), B.at(i), B.at(i) + N * W);
+    return coarse;
+  }
 
-  /// The level below; nothing if there is none that is smaller.
-  template <int F>
+  /// The level below, and its near kernel; nothing if there is none that is smaller.
+  template <int F, int W>
   std::optional<level_below<F>> aggregate_below(multigrid_level<F, M, T>& above,
-                                                near_kernel<F, M> const& B,
-                                                multigrid_options const& o) {
+                                                near_kernel<F, W> const& B,
+                                                multigrid_options const& o,
+                                                near_kernel<W, W>& next) {
     // A level may have so many of the numbers of the one above that all have what the limit allows.
     double const most = (1 - 1 / o.complexity) * double(above.A.blocks()) * (F * F);
     T const λ = above.find_largest(false);
@@ -362,10 +390,10 @@ class hierarchy {
         θ = weaker(θ);
         continue;
       }
-      near_kernel<M, M> next;
-      auto const Q = orthonormal_candidates<F, M, T>(a, B, next);
+      auto const Q = orthonormal_candidates<F, W, T>(a, B, next);
       T const ω = smooth ? T(o.damping) / λ : T(0);
-      auto P = smoothed_prolongation<F, M, T>(above.A, above.inverses.data(), a, Q, ω);
+      auto P =
+          columns_apart<M>(smoothed_prolongation<F, W, T>(above.A, above.inverses.data(), a, Q, ω));
       auto C = galerkin_pattern(above.A, P, above.longest);
       if (smooth && double(C.blocks()) * (M * M) > most) {
         if (θ == 0) smooth = false;
@@ -373,7 +401,9 @@ class hierarchy {
         continue;
       }
       smoothed = smoothed && smooth;
-      return level_below<F>{std::move(P), std::move(C), std::move(a), std::move(next)};
+      level_below<F> below{std::move(P), std::move(C), std::move(a), {}};
+      if constexpr (W == M) below.kernel = next;
+      return below;
     }
   }
 

@@ -113,7 +113,8 @@ class multigrid {
   }
   /// The near kernel of level 1, n₁ × r for nodes of r unknowns, upper triangular blocks R: on an
   /// aggregate the candidates of K are Q R, Q what its unknowns stand for before smoothing. With
-  /// prolongations of the user R = I, for constants as candidates.
+  /// prolongations of the user R = I, for constants as candidates. No rows where rotations follow
+  /// such prolongations: nodes are then halves of aggregates.
   [[nodiscard]] matrix_type coarse_kernel() const;
   /// PᵀK P, of full blocks. As for the next three, there has to be a level 1: bad_input otherwise,
   /// and for an x that is not of the size of its level.
@@ -267,14 +268,6 @@ class multigrid {
     });
     note(std::visit([](auto const& h) { return h.smoothed; }, *levels_), candidates, o);
   }
-  /// Whether there are prolongations of the user; the levels that they make.
-  template <int N, int W>
-  static bool interpolates(levels<N, W>& h, multigrid_options const& o,
-                           Eigen::SparseMatrix<S, Eigen::RowMajor> const* G) {
-    if (o.prolongations.empty()) return false;
-    if constexpr (N == W) h.interpolate_all(o, G);
-    return true;
-  }
 
   /// f(levels) for nodes of b unknowns, coarse ones with rotations or without.
   template <class F>
@@ -390,8 +383,14 @@ multigrid<S, T>::multigrid(sparse_view const& K, mixed_unknowns<S> const* mixed,
   index const b = block_size(given, modes.cols(), o);
   build(b, modes.cols(), o, [&]<int N, int W>(levels<N, W>& h) {
     h.begin(K, factor_);
-    if (interpolates(h, o, mixed ? &mixed->G : nullptr)) return;
-    if (mixed) {
+    if (!o.prolongations.empty()) {
+      if constexpr (N == W) {
+        constexpr int both = N == 3 ? 6 : N;
+        bool const rotates = both > N && modes.cols() == both;
+        h.interpolate_all(o, mixed ? &mixed->G : nullptr,
+                          rotates ? kernel<N, both>(modes) : detail::near_kernel<N, both>{});
+      }
+    } else if (mixed) {
       h.aggregate_mixed(given, factor_, mixed->G, kernel<N, W>(modes), o);
     } else {
       h.aggregate_all(kernel<N, W>(modes), o);

@@ -168,6 +168,34 @@ template <int N, int F, int M, class T>
   }
 }
 
+/// P for coarse nodes of M unknowns each in place of W, a multiple.
+template <int M, int N, int W, class T>
+[[nodiscard]] prolongation<N, M, T> columns_apart(prolongation<N, W, T> P) {
+  if constexpr (M == W) {
+    return P;
+  } else {
+    constexpr int parts = W / M;
+    prolongation<N, M, T> apart;
+    apart.coarse_nodes = P.coarse_nodes * parts;
+    apart.column.reserve(P.column.size() * parts);
+    apart.entries.reserve(P.entries.size() + apart.beyond);
+    for (int i = 0; i < P.nodes(); ++i) {
+      for (int e = P.begin(i); e < P.end(i); ++e) {
+        for (int part = 0; part < parts; ++part) {
+          apart.column.push_back(P.at(e) * parts + part);
+          for (int q = 0; q < N; ++q) {
+            T const* const from = P.block(e) + W * q + M * part;
+            apart.entries.insert(apart.entries.end(), from, from + M);
+          }
+        }
+      }
+      apart.first.push_back(static_cast<int>(apart.column.size()));
+    }
+    apart.entries.resize(apart.entries.size() + apart.beyond, T(0));
+    return apart;
+  }
+}
+
 /// P of the user as blocks of N unknowns: rows are the nodes of the fine level and columns those of
 /// the coarse one, entries the weights; or rows and columns are unknowns. `nodes` fine nodes.
 /// Throws bad_input naming what does not fit.
