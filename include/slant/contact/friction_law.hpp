@@ -41,8 +41,6 @@ inline constexpr index static_tangents<Friction> = Friction::tangents;
 /// it is one type for all of them.
 struct friction_of_data {
   index tangents;  ///< per node: 0, 1 or 2
-
-  explicit friction_of_data(index k) : tangents(k) {}
 };
 
 namespace detail {
