@@ -142,7 +142,11 @@ class certified_run final : public supported_problem<S> {
       bool const is_later = budget < options_.max_steps;
       if (is_later && end.how == status::iteration_limit) end.how = status::stalled;
       bool const can_go_on = end.how == status::converged || end.how == status::stalled;
-      certify(state.x);
+      result_.multipliers = d_.cwiseProduct(state.x);
+      result_.u = dual_.displacement(result_.multipliers);
+      ++result_.solves;
+      result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
+                                   solver(factor_));
       S error = result_.error.relative();
       bool is_sharp = false;
       auto const sharpen = [&] {
@@ -202,14 +206,6 @@ class certified_run final : public supported_problem<S> {
     return std::move(found.x);
   }
 
-  /// The error at x, u and λ with it.
-  void certify(vector_type const& x) {
-    result_.multipliers = d_.cwiseProduct(x);
-    result_.u = dual_.displacement(result_.multipliers);
-    ++result_.solves;
-    result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
-                                 solver(factor_));
-  }
   void finish(slant::detail::ending& end, bool is_enough) {
     auto const known = result_.error.sentence();
     if (is_enough) {

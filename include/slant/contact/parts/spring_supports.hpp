@@ -53,18 +53,6 @@
 
 namespace slant::contact::detail {
 
-/// The unknowns that hold all bodies if they are fixed.
-template <class S>
-[[nodiscard]] std::vector<index> fixing_unknowns(free_motions<S> const& motions) {
-  std::vector<index> list;
-  for (auto const& body : motions.free) {
-    for (index const row : fixing_rows(body.motions)) {
-      list.push_back(body.unknowns[std::size_t(row)]);
-    }
-  }
-  return list;
-}
-
 /// √(vᵀK v), from the products with K.
 template <class S, class V>
 [[nodiscard]] S elastic_norm(Eigen::SparseMatrix<S> const& K, V const& v) {
@@ -112,7 +100,11 @@ class spring_supports {
         options_(o),
         make_(std::move(make)),
         R_(kernel_of(motions, K.rows())) {
-    places_ = fixing_unknowns(motions);
+    for (auto const& body : motions.free) {
+      for (index const row : fixing_rows(body.motions)) {
+        places_.push_back(body.unknowns[std::size_t(row)]);
+      }
+    }
     sum_.motions = std::move(motions);
     origin_.setZero(K.rows());
     rest_.setZero(K.rows());
@@ -378,7 +370,7 @@ class spring_supports {
   solve_options<S> options_;
   maker make_;
   sparse_type R_, supported_{};
-  std::vector<index> places_{};
+  std::vector<index> places_{};    // unknowns that hold all bodies if they are fixed
   vector_type D_{};                // diagonal, 0 but at the places
   vector_type origin_{}, rest_{};  // of the anchor
   vector_type positions_{}, λ_{};
