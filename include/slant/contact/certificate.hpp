@@ -51,7 +51,6 @@
 #include <slant/certificates/energy_error.hpp>
 #include <slant/certificates/newton_estimate.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/factorization.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/contact/contact_data.hpp>

@@ -30,7 +30,6 @@
 #include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
 #include <slant/contact/free_motions.hpp>
-#include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/route.hpp>
 #include <slant/contact/solve_friction.hpp>

@@ -28,11 +28,9 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
 #include <slant/contact/friction_law.hpp>
-#include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/alart_curnier_steps.hpp>
 #include <slant/contact/parts/iterated_run.hpp>
 #include <slant/contact/solve_options.hpp>
-#include <slant/multilevel/multigrid.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
