@@ -332,7 +332,7 @@ TEST_CASE("sizes that do not fit are refused before anything is read") {
   };
   refused([](auto& c) { c.N.resize(1, 400); },
           "columns of N: got 400, expected the size of f, 100");
-  refused([](auto& c) { c.d.resize(0); }, "d: got 0, expected the number of rows of N, 1");
+  refused([](auto& c) { c.d.resize(0); }, "d: got 0, expected one gap per row of N, 1");
   contact::certificate<double> certificate(s.K, s.data);
   CHECK_THROWS_AS((void)certificate.extended_norm(VectorXd(3)), slant::bad_input);
   CHECK_THROWS_AS(certificate.set_positions(VectorXd(3)), slant::bad_input);

@@ -67,9 +67,9 @@ TEST_CASE("no friction: the products of the frictionless problem, for both famil
   contact::dual problem(contact::friction_disc{}, factor, c);
   VectorXd const none = VectorXd::Zero(c.d.size());
   slant::identity_operator const I(problem.b().size());
-  contact::coulomb_options<double> o{.goal = 1e-9};
-  auto newton = o.newton;
-  newton.forcing.goal = o.goal;
+  contact::coulomb_options const o{.goal = 1e-9};
+  slant::symmetric_newton_options<double> const newton{
+      .forcing = {.γ = 0.9, .exponent = 1.5, .η_max = 0.1, .η_first = 0.1, .goal = o.goal}};
   auto const tresca =
       slant::solve(slant::symmetric_newton{problem.qp(), newton}, problem.zero(), stop(1e-9));
   contact::coulomb_radii radii(problem, contact::coefficients(none));

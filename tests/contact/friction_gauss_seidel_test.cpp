@@ -70,12 +70,7 @@ TEST_CASE("Gauss–Seidel: all that changes is in the state") {
 TEST_CASE("Gauss–Seidel: bad options and starts are named") {
   auto const p = test::chain_friction(2);
   blocks const b(p);
-  struct bad {
-    char const* name;
-    slant::contact::gauss_seidel_options<double> o;
-  };
-  for (auto const& [name, o] : {bad{"sweeps", {.sweeps = 0}}, {"patience", {.patience = 0}}})
-    CHECK_THROWS_WITH_AS(method(b, o), doctest::Contains(name), slant::bad_input);
+  CHECK_THROWS_WITH_AS(method(b, {.patience = 0}), doctest::Contains("patience"), slant::bad_input);
   CHECK_THROWS_AS(static_cast<void>(method(b).start(VectorXd::Zero(5))), slant::bad_input);
 }
 

@@ -42,8 +42,9 @@ outcome run(test::friction_problem const& p, double tolerance, options const& o)
          !s.best_error.at_most(tolerance)) {
     m.step(s);
   }
-  return {b.force(s.best),  b.force(s.x), s.best_error, s.iteration,
-          s.factorizations, s.sparse,     s.evaluations};
+  auto const& lu = s.lu.work();
+  return {b.force(s.best),   b.force(s.x), s.best_error, s.iteration,
+          lu.factorizations, lu.sparse,    s.evaluations};
 }
 outcome run(test::friction_problem const& p, double tolerance, options o = {}) {
   o.small = std::min(o.small, tolerance / 100);
@@ -118,9 +119,9 @@ TEST_CASE("interior point: a full matrix takes no memory after the first step, a
   auto const allocations = guard.count();
   CHECK(allocations == 0);
   CHECK(s.iteration == 6);
-  CHECK(s.factorizations == 6);
-  CHECK(s.factored_rows == 6 * 36);
-  CHECK(s.sparse == 0);
+  CHECK(s.lu.work().factorizations == 6);
+  CHECK(s.lu.work().rows == 6 * 36);
+  CHECK(s.lu.work().sparse == 0);
   auto const chain = run(test::chain_friction(60), 1e-10);
   CHECK(chain.error.at_most(1e-10));
   CHECK(chain.sparse == chain.factorizations);

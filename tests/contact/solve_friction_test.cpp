@@ -315,8 +315,7 @@ TEST_CASE("friction options: the defaults are valid, each bad one is named") {
         {"sweeps", {.sweeps = -1}},
         {"newton_steps", {.newton_steps = -1}},
         {"interior_steps", {.interior_steps = -1}},
-        {"attempt", {.attempt = 0}},
-        {"patience", {.patience = 0}}}) {
+        {"attempt", {.attempt = 0}}}) {
     CAPTURE(name);
     CHECK(test::complaint([&o = o] { o.validate(); }).find(name) != std::string::npos);
   }

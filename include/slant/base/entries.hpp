@@ -67,6 +67,15 @@ template <class S, int R, int C>
   for (int i = 0; i < R * C; ++i) product.data()[i] = a * x.data()[i];
   return product;
 }
+/// x / a.
+template <class S, int R, int C>
+  requires(R > 0 && C > 0)
+[[nodiscard]] Eigen::Matrix<S, R, C> over(Eigen::Matrix<S, R, C> const& x,
+                                          std::type_identity_t<S> const& a) {
+  Eigen::Matrix<S, R, C> quotient;
+  for (int i = 0; i < R * C; ++i) quotient.data()[i] = x.data()[i] / a;
+  return quotient;
+}
 /// a x + b y.
 template <class M>
   requires(M::SizeAtCompileTime > 0)

@@ -51,7 +51,6 @@
 #include <slant/certificates/energy_error.hpp>
 #include <slant/certificates/newton_estimate.hpp>
 #include <slant/concepts/bad_input.hpp>
-#include <slant/concepts/factorization.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/contact/contact_data.hpp>
@@ -72,13 +71,7 @@ namespace slant::contact {
 /// solve(b, x) of a factorisation, as the certificate takes it. Refers to it.
 template <class Factorization>
 [[nodiscard]] auto solver(Factorization const& factor) {
-  return [&factor]<class V>(V const& b, V& x) {
-    if constexpr (has_plain_solve<Factorization, V>) {
-      factor.solve(b, x);
-    } else {
-      slant::apply(inverse(factor), b, x);
-    }
-  };
+  return [&factor]<class V>(V const& b, V& x) { slant::apply(inverse(factor), b, x); };
 }
 template <class Factorization>
 auto solver(Factorization const&&) = delete;
@@ -114,8 +107,9 @@ class certificate {
   using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
-  /// Throws bad_input if sizes do not match.
-  certificate(sparse_type const& K, data<S> const& c) : m_(checked(K, c), c), data_(&c) {}
+  /// Throws bad_input if the data are not valid (see contact::data::validate) or K does not fit.
+  certificate(sparse_type const& K, data<S> const& c)
+      : m_((detail::check_scene(K, c), K), c), data_(&c) {}
 
   /// Looks for a proven lower bound of λ_min(K), by three solves with K and one factorisation of a
   /// matrix with its pattern, more if the first is not definite; see smallest_eigenvalue_bound.
@@ -259,21 +253,6 @@ class certificate {
   }
 
  private:
-  static sparse_type const& checked(sparse_type const& K, data<S> const& c) {
-    slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
-    slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
-    slant::detail::check_size("columns of N", c.N.cols(), c.f.size(), "the size of f,");
-    slant::detail::check_size("d", c.d.size(), c.N.rows(), "the number of rows of N,");
-    if (c.T.rows() > 0) {
-      slant::detail::check_size("columns of T", c.T.cols(), c.f.size(), "the size of f,");
-      slant::detail::check_size("g", c.g.size(), c.N.rows(), "the number of rows of N,");
-      index const k = c.T.rows() > c.N.rows() ? 2 : 1;
-      slant::detail::check_size("rows of T", c.T.rows(), k * c.N.rows(),
-                                "one or two for each of N,");
-    }
-    return K;
-  }
-
   /// c_i: the gap, or the tangential position; 0 where the gap is infinite.
   [[nodiscard]] S position(index i) const {
     index const m = data_->nodes();
@@ -314,6 +293,7 @@ class certificate {
     S const eps = std::numeric_limits<S>::epsilon();
     S last = std::numeric_limits<S>::infinity();
     auto const finer = static_cast<S>(std::numeric_limits<extended>::epsilon());
+    for (vector_type* v : {&residual_, &load_, &image_}) v->resize(u.size());
     // Where the goal is not far, extended precision may do, which is ten times as fast.
     bool is_doubled = !(S(1024) * finer < eps) || goal < S(0x1p22) * eps;
     for (index pass = 0;; ++pass) {
@@ -324,7 +304,6 @@ class certificate {
       S const load = residual_.stableNorm();
       note_quotient(load, w_.stableNorm());
       size_ = size_of(u);
-      image_.resize(u.size());
       auto const energy_of_w =
           m_.energy(w_, m_.all, scaled_, [&](index j, S const& value) { image_(j) = value; });
       S const correction = m_.root(S(energy_of_w.sum + energy_of_w.lost), energy_of_w);
@@ -372,8 +351,6 @@ class certificate {
   }
 
   void residual(vector_type const& λ, vector_type const& u) {
-    residual_.resize(u.size());
-    load_.resize(u.size());
     for (index j = 0; j < u.size(); ++j) {
       auto sum = detail::minus_column<S>(m_.B, j, λ, data_->f(j));
       sum = detail::minus_column<S>(m_.B, j, outward_, sum);
@@ -383,8 +360,6 @@ class certificate {
   }
   /// The same in extended precision.
   void extended_residual(vector_type const& λ, vector_type const& u) {
-    residual_.resize(u.size());
-    load_.resize(u.size());
     for (index j = 0; j < u.size(); ++j) {
       auto sum = static_cast<extended>(data_->f(j));
       for (typename sparse_type::InnerIterator e(m_.B, j); e; ++e) {

@@ -30,7 +30,6 @@
 #include <slant/contact/coulomb/coulomb.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
 #include <slant/contact/free_motions.hpp>
-#include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/iterated_coulomb.hpp>
 #include <slant/contact/route.hpp>
 #include <slant/contact/solve_friction.hpp>
@@ -49,69 +48,6 @@
 #include <utility>
 
 namespace slant::contact {
-
-/// What certified_coulomb solves with.
-enum class coulomb_method {
-  automatic,  ///< Newton's method, radii where that fails, solve_friction where both do
-  newton,     ///< of Alart and Curnier's residual
-  radii,      ///< successive approximations, coulomb_radii
-  cones       ///< successive approximations, coulomb_cones
-};
-
-/// Options of certified_coulomb.
-template <class S = double>
-struct certified_coulomb_options {
-  double tolerance = 1e-8;  ///< of what the certificate finds, in [0, 1); 0: as far as possible
-  coulomb_method method = coulomb_method::automatic;
-  index newton_steps = 60;  ///< of Newton's method at most
-  index outer_steps = 300;  ///< of successive approximations at most
-  bool scale = true;        ///< as in solve_options
-  /// Where the unknowns are: gives multigrid the rigid-body modes. Without it K is factored first,
-  /// unless `route` says otherwise: bodies without supports are not known as such then.
-  node_layout<S> layout{};
-  /// Factors of K, or multigrid and no factors, which the method has to be `automatic` for.
-  solution_route route = solution_route::automatic;
-  multigrid_options multigrid{};
-  route_costs costs = default_route_costs<S>();
-
-  /// Throws bad_input naming the option, its value and what was expected.
-  [[gnu::cold]] void validate() const {
-    multigrid.validate();
-    slant::detail::checked_tolerance(tolerance);
-    slant::detail::check_option("newton_steps", newton_steps, newton_steps >= 1, "at least 1");
-    slant::detail::check_option("outer_steps", outer_steps, outer_steps >= 1, "at least 1");
-  }
-};
-
-/// What certified_coulomb found.
-template <class V>
-struct certified_coulomb_result {
-  V λ;                                 ///< (λ_ν, λ_t)
-  V u{};                               ///< displacements
-  coulomb_error<scalar_t<V>> error{};  ///< of (λ, u)
-  slant::status status = status::running;
-  std::string reason{};  ///< the status as a sentence
-  /// "Newton", "successive approximations", "solve_friction", "cones"; without factors "slip bounds
-  /// and Newton", or "successive slip bounds" alone.
-  std::string_view method{};
-  index steps = 0;              ///< of that method; of slip bounds each of Tresca's problems is one
-  slant::work work{};           ///< of all methods and the certificate
-  scalar_t<V> condition{0};     ///< estimate of the condition number of K; 0: K was not factored
-  bool scaled = false;          ///< whether rows of B were scaled
-  std::string factorization{};  ///< what factored K; or the levels of multigrid
-  route_choice choice{};        ///< which route was taken, and why
-
-  [[nodiscard]] bool converged() const { return status == slant::status::converged; }
-};
-
-/// As a solution of contact::solve prints itself.
-template <class V>
-std::ostream& operator<<(std::ostream& out, certified_coulomb_result<V> const& run) {
-  slant::detail::print_run(out, run.status, run.reason, index(run.u.size()),
-                           std::to_string(run.steps) + " of " + std::string(run.method), run.work,
-                           run.choice.reason);
-  return out;
-}
 
 namespace detail {
 
@@ -357,24 +293,6 @@ template <class Dual, class V, class Check>
   return r;
 }
 
-// --- without factors -----------------------------------------------------------------------------
-
-/// What was found without factors, as it is reported.
-template <class S>
-[[nodiscard]] certified_coulomb_result<Eigen::VectorX<S>> reported(
-    iterated_coulomb_result<S> found, certified_coulomb_options<S> const& o) {
-  certified_coulomb_result<Eigen::VectorX<S>> result{std::move(found.λ)};
-  result.u = std::move(found.u);
-  result.error = found.error;
-  conclude(result, found.status == status::converged, found.status, o.tolerance,
-           "; " + found.reason);
-  result.method = found.newton_steps > 0 ? "slip bounds and Newton" : "successive slip bounds";
-  result.steps = found.bounds + found.newton_steps;
-  result.work = found.work;
-  result.factorization = std::move(found.levels);
-  return result;
-}
-
 // --- with factors --------------------------------------------------------------------------------
 
 /// From valid data without slip bounds, and factors of K.
@@ -472,9 +390,7 @@ template <class Friction, class S>
       choose_route(K, outlook.refusal, needs_none ? solution_route::iterate : o.route, o.costs);
   if (needs_none) choice.reason = "iterated: factors need supports of every body";
   auto const iterate = [&] {
-    return detail::reported(detail::iterated_coulomb(friction, K, c, F, o.layout, outlook.floating,
-                                                     o.multigrid, S(o.tolerance), o.outer_steps),
-                            o);
+    return detail::iterated_coulomb(friction, K, c, F, outlook.floating, o);
   };
   bool const can_follow = automatic && outlook.is_possible && o.tolerance > 0;
   // Multigrid takes K for definite where neither coordinates nor factors have told.

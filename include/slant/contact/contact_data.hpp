@@ -21,25 +21,29 @@ namespace slant::contact::detail {
 
 // --- contact checks ------------------------------------------------------------------------------
 
+/// Throws bad_input "name[3]: …" for the first entry that is not `good`.
+template <class V, class Good>
+void check_each(char const* name, V const& v, char const* expectation, Good const& good) {
+  for (index i = 0; i < v.size(); ++i) {
+    if (!good(v(i))) throw bad_input(name, slant::detail::show(v(i)), expectation).at(i);
+  }
+}
+
 /// Throws bad_input unless d has m entries that are numbers or +∞.
 template <class V>
 void check_gaps(V const& d, index m) {
+  using S = scalar_t<V>;
   slant::detail::check_size("d", d.size(), m, "one gap per row of N,");
-  for (index i = 0; i < m; ++i) {
-    if (!(d(i) > -std::numeric_limits<scalar_t<V>>::infinity())) {
-      throw bad_input("d", slant::detail::show(d(i)), "a number or +inf").at(i);
-    }
-  }
+  check_each("d", d, "a number or +inf",
+             [](S const& x) { return x > -std::numeric_limits<S>::infinity(); });
 }
 
 /// Throws bad_input unless all friction coefficients are finite and ≥ 0.
 template <class V>
 void check_coefficients(char const* name, V const& F) {
-  for (index i = 0; i < F.size(); ++i) {
-    if (!(F(i) >= scalar_t<V>(0)) || !slant::detail::is_finite(F(i))) {
-      throw bad_input(name, slant::detail::show(F(i)), "a finite number >= 0").at(i);
-    }
-  }
+  using S = scalar_t<V>;
+  check_each(name, F, "a finite number >= 0",
+             [](S const& x) { return x >= S(0) && slant::detail::is_finite(x); });
 }
 
 /// A row of zeros says 0 ≤ dᵢ, whatever u is. N may have more rows than d has entries. Throws
@@ -68,11 +72,8 @@ void check_slip_bounds(V const& g, index m, bool tangents) {
     return;
   }
   slant::detail::check_size("g", g.size(), m, "one slip bound per row of N,");
-  for (index i = 0; i < m; ++i) {
-    if (!(g(i) >= scalar_t<V>(0))) {
-      throw bad_input("g", slant::detail::show(g(i)), "a number >= 0 or +inf").at(i);
-    }
-  }
+  check_each("g", g, "a number >= 0 or +inf",
+             [](scalar_t<V> const& x) { return x >= scalar_t<V>(0); });
 }
 
 }  // namespace slant::contact::detail
@@ -122,6 +123,14 @@ struct data {
 }  // namespace slant::contact
 
 namespace slant::contact::detail {
+
+/// Throws bad_input unless the data are valid and K is a matrix of their unknowns.
+template <class M, class S>
+void check_scene(M const& K, data<S> const& c) {
+  c.validate();
+  slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
+  slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
+}
 
 // --- gap loads -----------------------------------------------------------------------------------
 

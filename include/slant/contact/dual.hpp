@@ -224,11 +224,7 @@ class dual {
 
  private:
   void solve_once(vector_type const& load, vector_type& u) const {
-    if constexpr (has_plain_solve<std::remove_cvref_t<Factorization>, vector_type>) {
-      factor_.get().solve(load, u);
-    } else {
-      slant::apply(inverse(factor_.get()), load, u);
-    }
+    slant::apply(inverse(factor_.get()), load, u);
   }
 
   /// u without contact, about which the user has only f to look at.

@@ -41,8 +41,6 @@ inline constexpr index static_tangents<Friction> = Friction::tangents;
 /// it is one type for all of them.
 struct friction_of_data {
   index tangents;  ///< per node: 0, 1 or 2
-
-  explicit friction_of_data(index k) : tangents(k) {}
 };
 
 namespace detail {
@@ -114,72 +112,61 @@ template <class Coefficient>
 
 /// Fᵢ, whatever the slip; made by `coefficients`.
 template <class V>
-class place_dependent_friction {
- public:
+struct place_dependent_friction {
   using scalar = scalar_t<V>;
-  explicit place_dependent_friction(V F) : F_(std::move(F)) { detail::check_coefficients("F", F_); }
-  [[nodiscard]] index size() const { return F_.size(); }
-  [[nodiscard]] scalar operator()(index i, scalar const&) const { return F_(i); }
+  V F;
 
- private:
-  V F_;
+  [[nodiscard]] index size() const { return F.size(); }
+  [[nodiscard]] scalar operator()(index i, scalar const&) const { return F(i); }
 };
 
 /// f(i, ‖u_t,i‖); made by `slip_dependent`.
 template <class S, class Function>
-class slip_dependent_friction {
- public:
+struct slip_dependent_friction {
   using scalar = S;
-  slip_dependent_friction(index contacts, Function f) : contacts_(contacts), f_(std::move(f)) {}
-  [[nodiscard]] index size() const { return contacts_; }
+  index contacts;
+  Function f;
+
+  [[nodiscard]] index size() const { return contacts; }
   /// Throws bad_input "f[3]: …" where f has no value >= 0 for contact 3, whatever calls it.
   [[nodiscard]] scalar operator()(index i, scalar const& slip) const {
-    scalar const F = f_(i, slip);
+    scalar const F = f(i, slip);
     if (F >= scalar(0)) return F;
     throw bad_input("f", slant::detail::show(F),
                     "a friction coefficient >= 0 for the slip " + slant::detail::show(slip))
         .at(i);
   }
-
- private:
-  index contacts_;
-  Function f_;
 };
 
 /// F¹ along the first tangent, F² along the second; made by `orthotropic_coefficients`.
 template <class V>
-class orthotropic_friction {
- public:
+struct orthotropic_friction {
   using scalar = scalar_t<V>;
-  orthotropic_friction(V first, V second) : first_(std::move(first)), second_(std::move(second)) {
-    slant::detail::check_size("F2", second_.size(), first_.size(), "as many as F1,");
-    detail::check_coefficients("F1", first_);
-    detail::check_coefficients("F2", second_);
-  }
-  [[nodiscard]] index size() const { return first_.size(); }
-  [[nodiscard]] V const& first() const { return first_; }
-  [[nodiscard]] V const& second() const { return second_; }
+  V first, second;
 
- private:
-  V first_, second_;
+  [[nodiscard]] index size() const { return first.size(); }
 };
 
 /// A coefficient per contact. @throws bad_input "F[3]: …" unless all are finite and >= 0.
 template <class V>
 [[nodiscard]] auto coefficients(V F) {
-  return place_dependent_friction<V>(std::move(F));
+  detail::check_coefficients("F", F);
+  return place_dependent_friction<V>{std::move(F)};
 }
 /// f(i, slip) >= 0 for contact i and the length of its slip, a displacement; ∞ sticks. What calls f
 /// throws bad_input naming the contact where the value is negative or NaN.
 template <class S = double, class Function>
   requires std::convertible_to<std::invoke_result_t<Function const&, index, S>, S>
 [[nodiscard]] auto slip_dependent(index contacts, Function f) {
-  return slip_dependent_friction<S, Function>(contacts, std::move(f));
+  return slip_dependent_friction<S, Function>{contacts, std::move(f)};
 }
 /// Two coefficients per contact of bodies in space. @throws bad_input as `coefficients`.
 template <class V>
 [[nodiscard]] auto orthotropic_coefficients(V first, V second) {
-  return orthotropic_friction<V>(std::move(first), std::move(second));
+  slant::detail::check_size("F2", second.size(), first.size(), "as many as F1,");
+  detail::check_coefficients("F1", first);
+  detail::check_coefficients("F2", second);
+  return orthotropic_friction<V>{std::move(first), std::move(second)};
 }
 
 }  // namespace slant::contact

@@ -64,20 +64,6 @@ struct node_layout {
   }
 };
 
-/// Unknowns D i … D i + D − 1 at node i.
-template <class M>
-[[nodiscard]] node_layout<typename M::Scalar> interleaved_layout(Eigen::MatrixBase<M> const& x) {
-  node_layout<typename M::Scalar> layout;
-  layout.x = x;
-  for (index i = 0; i < x.cols(); ++i) {
-    for (int k = 0; k < int(x.rows()); ++k) {
-      layout.node.push_back(i);
-      layout.axis.push_back(k);
-    }
-  }
-  return layout;
-}
-
 /// Unknowns first[i] … first[i] + D − 1 at node i, none where first[i] < 0.
 template <class M, class I>
 [[nodiscard]] node_layout<typename M::Scalar> layout_of(Eigen::MatrixBase<M> const& x,
@@ -100,6 +86,14 @@ template <class M, class I>
   }
   layout.validate(count);
   return layout;
+}
+
+/// Unknowns D i … D i + D − 1 at node i.
+template <class M>
+[[nodiscard]] node_layout<typename M::Scalar> interleaved_layout(Eigen::MatrixBase<M> const& x) {
+  Eigen::VectorX<index> first(x.cols());
+  for (index i = 0; i < first.size(); ++i) first[i] = x.rows() * i;
+  return layout_of(x, first);
 }
 
 namespace detail {

@@ -57,9 +57,7 @@ template <class S, class Matrix, class V>
 [[nodiscard]] optimality<S> check_optimality(Matrix const& K, data<S> const& c, V const& u,
                                              V const& λ) {
   using vector_type = Eigen::VectorX<S>;
-  c.validate();
-  slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
-  slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
+  detail::check_scene(K, c);
   vector_type const diagonal = K.diagonal();
   S const κ = diagonal.size() > 0 ? diagonal.maxCoeff() : S(0);
   slant::detail::check_positive("largest diagonal entry of K", κ);

@@ -63,9 +63,7 @@ void find_inward_normals(Eigen::SparseMatrix<S> const& K, node_layout<S> const& 
       }
     }
     if (before > S(4) * -behind) {
-      s.add(i, [&] {
-        return row_text(i, "N") + " points into the body: N u > 0 is to mean towards the obstacle";
-      });
+      s.add(i, row_name{i, "N"}, " points into the body: N u > 0 is to mean towards the obstacle");
     }
   }
   s.report(suspicion::inward_normal, "N", "rows of N",
@@ -143,10 +141,8 @@ void find_opposed_normals(Eigen::SparseMatrix<S> const& K, contact_rows<S> const
   for (index i = 0; i < rows.m; ++i) {
     auto const& [opposed, rest] = votes[std::size_t(i)];
     if (opposed < 2 || rest > 0) continue;
-    s.add(i, [&] {
-      return row_text(i, "N") + " points against those of all " + slant::detail::show(opposed) +
-             " contact nodes beside it";
-    });
+    s.add(i, row_name{i, "N"}, " points against those of all ", opposed,
+          " contact nodes beside it");
   }
   s.report(suspicion::opposed_normal, "N", "rows of N",
            "Turn its sign: a row of N is positive towards the obstacle", found);
@@ -156,12 +152,6 @@ void find_opposed_normals(Eigen::SparseMatrix<S> const& K, contact_rows<S> const
   found.push_back({suspicion::no_contact, "contact nodes", 0, 1,
                    what + ". If there should be contact look at the signs of N and d: N u <= d, "
                           "where N u > 0 is towards the obstacle and d is the gap"});
-}
-
-template <class S>
-void find_no_contact(data<S> const& c, warnings& found) {
-  if (c.d.array().isFinite().any()) return;
-  warn_of_no_contact("all gaps in d are infinite: no node can touch", found);
 }
 
 /// No node touches: each is open, and no normal force is more than a rounding error of the load.
@@ -199,11 +189,9 @@ void find_large_displacements(Eigen::SparseMatrix<S> const& K, node_layout<S> co
     }
     S const length = (high - low).stableNorm();
     if (!(largest > length && length > S(0))) continue;
-    s.add(index(b), [&] {
-      return "unknown " + slant::detail::show(at) + " of body " + slant::detail::show(index(b)) +
-             " moves by " + slant::detail::brief(largest) + ", but the body is " +
-             slant::detail::brief(length) + " long";
-    });
+    s.add(index(b), "unknown ", at, " of body ", index(b), " moves by ",
+          slant::detail::brief(largest), ", but the body is ", slant::detail::brief(length),
+          " long");
   }
   s.report(suspicion::large_displacement, "bodies", "bodies",
            "Look at the units of K and f, and at the supports: displacements have to be small",
@@ -221,9 +209,7 @@ namespace slant::contact {
 template <class S>
 [[nodiscard]] std::vector<plausibility_warning> check_plausibility(
     Eigen::SparseMatrix<S> const& K, data<S> const& c, node_layout<S> const& layout = {}) {
-  c.validate();
-  slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
-  slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
+  detail::check_scene(K, c);
   layout.validate(c.f.size());
   detail::contact_rows<S> const rows(K, c, layout);
   std::vector<plausibility_warning> found;
@@ -238,7 +224,9 @@ template <class S>
     detail::find_inward_normals(K, layout, rows, found);
   else
     detail::find_opposed_normals(K, rows, found);
-  detail::find_no_contact(c, found);
+  if (!c.d.array().isFinite().any()) {
+    detail::warn_of_no_contact("all gaps in d are infinite: no node can touch", found);
+  }
   return found;
 }
 

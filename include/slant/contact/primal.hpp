@@ -394,7 +394,13 @@ class primal {
 
   /// K: n × n, both triangles, definite (which is asserted, not checked). Throws bad_input naming
   /// what does not fit: sizes, numbers that are not finite, and what primal_refusal says.
-  primal(sparse_type const& K, data<S> const& c) : primal(K, c, checked(K, c)) {}
+  primal(sparse_type const& K, data<S> const& c)
+      : local_(checked(K, c)),
+        K_(&K),
+        own_(scaled(turned(K))),
+        f_(turned(c.f)),
+        d_(c.d),
+        φ_(c.f.size(), c.tangents(), contacts(c)) {}
   primal(primal const&) = delete;
   primal& operator=(primal const&) = delete;
 
@@ -496,9 +502,7 @@ class primal {
 
  private:
   static detail::local_coordinates<S> checked(sparse_type const& K, data<S> const& c) {
-    c.validate();
-    slant::detail::check_size("rows of K", K.rows(), c.f.size(), "the size of f,");
-    slant::detail::check_size("columns of K", K.cols(), c.f.size(), "the size of f,");
+    detail::check_scene(K, c);
     detail::local_coordinates<S> local(c);
     if (!local.refusal.empty()) {
       throw bad_input("N and T", local.refusal,
@@ -506,13 +510,6 @@ class primal {
     }
     return local;
   }
-  primal(sparse_type const& K, data<S> const& c, detail::local_coordinates<S> local)
-      : local_(std::move(local)),
-        K_(&K),
-        own_(scaled(turned(K))),
-        f_(turned(c.f)),
-        d_(c.d),
-        φ_(c.f.size(), c.tangents(), contacts(c)) {}
 
   [[nodiscard]] sparse_type turned(sparse_type const& K) const {
     if (turns()) return detail::congruent(K, local_.inverse);

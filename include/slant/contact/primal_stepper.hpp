@@ -201,13 +201,8 @@ class primal_stepper {
     steps_.begin(std::move(step));
     auto& run = steps_.run();
     if (report_.factorization.empty()) report_.factorization = run.levels().description();
-    if (steps_.springs().empty()) {
-      detail::run_to_certified(steps_.law(), run, steps_.certificate(), steps_.scene(), options_,
-                               report_);
-    } else {
-      detail::run_floating_to_certified(steps_.law(), run, steps_.springs(), steps_.certificate(),
-                                        steps_.scene(), options_, report_);
-    }
+    detail::run_to_certified(steps_.law(), run, steps_.springs(), steps_.certificate(),
+                             steps_.scene(), options_, report_);
     if (report_.converged()) static_cast<void>(steps_.remember());
     return report_;
   }
@@ -255,13 +250,10 @@ class primal_coulomb_stepper {
     S const τ = f.size() == steps_.scene().f.size() ? steps_.line_to(f) : S(0);
     step.g = (g_ + τ * way_of_g_).cwiseMax(S(0));
     steps_.begin(std::move(step));
-    auto found =
-        rests() ? at_rest()
-                : detail::run_coulomb_to_certified(
-                      steps_.law(), steps_.run(), newton_, steps_.springs(), steps_.certificate(),
-                      detail::checked_rows<S>(steps_.scene(), steps_.positions()), F_,
-                      S(options_.tolerance), options_.outer_steps);
-    report_ = detail::reported(std::move(found), options_);
+    report_ = rests() ? at_rest()
+                      : detail::run_coulomb_to_certified(
+                            steps_.law(), steps_.run(), newton_, steps_.springs(),
+                            steps_.certificate(), steps_.scene(), steps_.positions(), F_, options_);
     report_.choice.route = solution_route::iterate;
     report_.choice.reason = "iterated, as asked for";
     if (report_.converged()) {
@@ -279,13 +271,13 @@ class primal_coulomb_stepper {
     auto const& c = steps_.scene();
     return slant::detail::all_zero(c.f) && !(c.d.array() < S(0)).any();
   }
-  [[nodiscard]] detail::iterated_coulomb_result<S> at_rest() {
-    detail::iterated_coulomb_result<S> result;
+  [[nodiscard]] report_type at_rest() {
+    report_type result{vector_type::Zero(F_.size() + steps_.scene().T.rows())};
     result.u = vector_type::Zero(steps_.scene().f.size());
-    result.λ = vector_type::Zero(F_.size() + steps_.scene().T.rows());
     result.error.frozen.bound = S(0);
-    result.status = status::converged;
-    result.levels = steps_.run().levels().description();
+    detail::conclude(result, true, status::converged, options_.tolerance, "");
+    result.method = "successive slip bounds";
+    result.factorization = steps_.run().levels().description();
     result.work = steps_.run().state().work;
     return result;
   }

@@ -49,7 +49,6 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -62,8 +61,10 @@ namespace slant::contact::detail {
 /// Newton's method on the scaled dual problem of bodies that supports hold, under the control of
 /// the certificate.
 template <class Friction, class S>
-class certified_run final : public supported_problem<S> {
+class certified_run {
  public:
+  using scalar = S;
+  using friction_type = Friction;
   using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
 
@@ -96,8 +97,7 @@ class certified_run final : public supported_problem<S> {
 
   /// The same scene with the load and the gaps that the data have now, and with slips T u − w, from
   /// λ.
-  void reload(vector_type const& λ, vector_type const& w, S const& tolerance,
-              index max_steps) override {
+  void reload(vector_type const& λ, vector_type const& w, S const& tolerance, index max_steps) {
     load_step<S> step{.f = data_->f, .d = data_->d};
     if (w.size() > 0) step.w = w;
     dual_.update(std::move(step));
@@ -112,7 +112,7 @@ class certified_run final : public supported_problem<S> {
     result_.scaled = scaled;
   }
 
-  [[nodiscard]] solution<S> solve() override {
+  [[nodiscard]] solution<S> solve() {
     auto const set = feasible_set(dual_.friction(), data_->nodes(), g_);
     separable_qp const qp{dual_.a(C_), b_, set};
     auto const M = lumped_preconditioner(certificate_.matrix(), C_);
@@ -142,7 +142,11 @@ class certified_run final : public supported_problem<S> {
       bool const is_later = budget < options_.max_steps;
       if (is_later && end.how == status::iteration_limit) end.how = status::stalled;
       bool const can_go_on = end.how == status::converged || end.how == status::stalled;
-      certify(state.x);
+      result_.multipliers = d_.cwiseProduct(state.x);
+      result_.u = dual_.displacement(result_.multipliers);
+      ++result_.solves;
+      result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
+                                   solver(factor_));
       S error = result_.error.relative();
       bool is_sharp = false;
       auto const sharpen = [&] {
@@ -202,14 +206,6 @@ class certified_run final : public supported_problem<S> {
     return std::move(found.x);
   }
 
-  /// The error at x, u and λ with it.
-  void certify(vector_type const& x) {
-    result_.multipliers = d_.cwiseProduct(x);
-    result_.u = dual_.displacement(result_.multipliers);
-    ++result_.solves;
-    result_.error = certificate_(dual_.set(), result_.multipliers, result_.u, options_.tolerance,
-                                 solver(factor_));
-  }
   void finish(slant::detail::ending& end, bool is_enough) {
     auto const known = result_.error.sentence();
     if (is_enough) {
@@ -289,10 +285,7 @@ template <class Friction, class S>
       if (motions.free.empty()) throw;
     }
     may_iterate = may_iterate && !outlook.floating.free.empty();
-    auto const with_springs = [&](auto const& held, auto const& scene, auto const& options) {
-      return std::make_unique<run>(friction, held, scene, options);
-    };
-    return detail::spring_supports<S>(K, c, o, std::move(motions), with_springs).run();
+    return detail::spring_supports<run>(friction, K, c, o, std::move(motions)).run();
   };
   auto found = choice.route == solution_route::iterate
                    ? detail::by_routes(choice, automatic, iterate,

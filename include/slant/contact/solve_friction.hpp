@@ -65,7 +65,6 @@ struct friction_options {
   index newton_steps = 3000;   ///< at most, in all, those of the interior-point method included
   index interior_steps = 300;  ///< of that method at most
   index attempt = 40;          ///< Newton steps in one attempt of `newton`
-  index patience = 3;          ///< turns of `automatic` that hardly lessen the error, till stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
@@ -76,7 +75,6 @@ struct friction_options {
     check_option("newton_steps", newton_steps, newton_steps >= 0, "a number >= 0");
     check_option("interior_steps", interior_steps, interior_steps >= 0, "a number >= 0");
     check_option("attempt", attempt, attempt >= 1, "at least 1");
-    check_option("patience", patience, patience >= 1, "at least 1");
   }
 };
 
@@ -199,9 +197,10 @@ class friction_run {
   }
 
   void take_turns(gauss_seidel_state<S>& sweeping) {
+    constexpr index patience = 3;  // turns that hardly lessen the error
     index sweeps = 400, idle = 0;
     bool first = true;  // from wherever it begins, the interior-point method takes the same steps
-    while (!out_of_work() && idle < options_.patience) {
+    while (!out_of_work() && idle < patience) {
       index const before = work_.sweeps + steps_done();
       S const error_before = best_error_.worst();
       if (attempt_newton(options_.attempt)) return;
@@ -221,7 +220,7 @@ class friction_run {
   }
 
   [[nodiscard]] bool no_sweeps_left() const { return work_.sweeps >= options_.sweeps; }
-  [[nodiscard]] index steps_done() const { return newton_.work().steps + work_.interior_steps; }
+  [[nodiscard]] index steps_done() const { return newton_.steps() + work_.interior_steps; }
   [[nodiscard]] bool no_steps_left() const { return steps_done() >= options_.newton_steps; }
   [[nodiscard]] bool out_of_work() const { return no_sweeps_left() && no_steps_left(); }
   /// Without a solution: at a limit, or because a method has nothing left to do.
@@ -252,14 +251,14 @@ class friction_run {
 
   /// Newton's method from the best forces, with a damping that follows its success.
   bool attempt_newton(index steps) {
-    constexpr index failures_allowed = 3, halvings = 8;
+    constexpr index failures_allowed = 3;
     S const least = S(16) * std::numeric_limits<S>::epsilon();
     vector_type x = best_;
     newton_.begin(x);
     S δ(1e-6);
     index failures = 0;
     for (index k = 0; k < steps && !no_steps_left(); ++k) {
-      if (newton_.advance(x, δ, halvings)) {
+      if (newton_.advance(x, δ)) {
         if (newton_.length() == S(1)) δ = std::max(least, S(δ * S(0.1)));
         if (newton_.length() < S(0.1)) δ *= S(10);
         if (consider(x, method::newton)) return true;
@@ -283,11 +282,15 @@ class friction_run {
       ++work_.interior_steps;
     }
     work_.products += s.evaluations;
-    work_.factorizations += s.factorizations;
-    work_.factored_rows += s.factored_rows;
-    work_.sparse_factorizations += s.sparse;
+    note(s.lu.work());
     interior_status_ = s.iteration < options_.interior_steps ? s.status : status::iteration_limit;
     return consider(s.best, method::interior_point);
+  }
+
+  void note(block_lu_work const& done) {
+    work_.factorizations += done.factorizations;
+    work_.factored_rows += done.rows;
+    work_.sparse_factorizations += done.sparse;
   }
 
   /// Whether the forces in the units of the data are still those that were found.
@@ -300,12 +303,9 @@ class friction_run {
   [[nodiscard]] friction_result<S> finished() {
     using slant::detail::brief;
     using slant::detail::show;
-    auto const& n = newton_.work();
-    work_.products += n.evaluations;
+    work_.products += newton_.evaluations();
     work_.newton_steps = steps_done();
-    work_.factorizations += n.factorizations;
-    work_.factored_rows += n.unknowns;
-    work_.sparse_factorizations += n.sparse;
+    note(newton_.factored());
     vector_type force = blocks_.force(best_), speed = blocks_.speed(best_u_);
     bool const lost = !keeps(force) || !slant::detail::is_finite(S(speed.cwiseAbs().sum()));
     auto const check = verify(*problem_, force);

@@ -63,19 +63,6 @@ template <class S, class Blocks>
   return whole;
 }
 
-/// [B_E; N; T] for B_E u = c_E and the contact data. Throws bad_input if sizes do not match or
-/// numbers are not finite.
-template <class S>
-[[nodiscard]] Eigen::SparseMatrix<S> all_constraints(Eigen::SparseMatrix<S> const& B,
-                                                     Eigen::VectorX<S> const& c,
-                                                     data<S> const& of_contact) {
-  slant::detail::check_size("columns of B", B.cols(), of_contact.f.size(), "the size of f,");
-  slant::detail::check_size("c", c.size(), B.rows(), "the rows of B,");
-  slant::detail::require_finite_entries("B", B);
-  slant::detail::check_finite("c", c);
-  return stacked(B, stacked_constraints(of_contact));
-}
-
 }  // namespace detail
 
 // --- total feti ----------------------------------------------------------------------------------
@@ -119,9 +106,11 @@ class total_feti {
   /// the load moves a body in a way that no constraint opposes.
   total_feti(Friction friction, floating_bodies<S> const& bodies, data<S> const& c)
       : inverse_(generalized_inverses(bodies)),
-        R_(detail::diagonal_of<S>(kernels_of(inverse_))),
-        f_(checked_load(friction, c, inverse_.rows())),
-        B_(detail::all_constraints(bodies.B, bodies.c, c)),
+        R_(detail::diagonal_of<S>(
+            std::views::iota(index(0), inverse_.block_count()) |
+            std::views::transform([&](index i) -> auto const& { return kernel_of(i); }))),
+        f_(checked(friction, bodies, c, inverse_.rows()).f),
+        B_(detail::stacked(bodies.B, detail::stacked_constraints(c))),
         set_(cartesian(free_components<S>(bodies.B.rows()), detail::feasible_set(friction, c))),
         constraints_(equilibrium()),
         b_(B_.rows()) {
@@ -188,21 +177,27 @@ class total_feti {
     return diagonal_blocks(std::move(inverses));
   }
 
-  static auto kernels_of(inverse_type const& inverse) {
-    return std::views::iota(index(0), inverse.block_count()) |
-           std::views::transform(
-               [&inverse](index i) -> auto const& { return inverse.block(i).kernel(); });
-  }
+  [[nodiscard]] auto const& kernel_of(index body) const { return inverse_.block(body).kernel(); }
 
-  /// f of valid data; without contact nodes the problem is one of gluing alone, and linear.
-  static vector_type const& checked_load(Friction friction, data<S> const& c, index unknowns) {
-    if (c.nodes() > 0) return detail::validated(friction, c, unknowns).f;
-    slant::detail::check_size("rows of T", c.T.rows(), 0, "no contact nodes,");
-    slant::detail::check_size("d", c.d.size(), 0, "no contact nodes,");
-    slant::detail::check_size("g", c.g.size(), 0, "no contact nodes,");
-    slant::detail::check_size("rows of K", unknowns, c.f.size(), "the size of f,");
-    slant::detail::check_finite("f", c.f);
-    return c.f;
+  /// The data, valid as the constraints are. Without contact nodes the problem is one of gluing
+  /// alone, and linear.
+  static data<S> const& checked(Friction friction, floating_bodies<S> const& bodies,
+                                data<S> const& c, index unknowns) {
+    using slant::detail::check_size;
+    if (c.nodes() > 0) {
+      detail::validated(friction, c, unknowns);
+    } else {
+      check_size("rows of T", c.T.rows(), 0, "no contact nodes,");
+      check_size("d", c.d.size(), 0, "no contact nodes,");
+      check_size("g", c.g.size(), 0, "no contact nodes,");
+      check_size("rows of K", unknowns, c.f.size(), "the size of f,");
+      slant::detail::check_finite("f", c.f);
+    }
+    check_size("columns of B", bodies.B.cols(), c.f.size(), "the size of f,");
+    check_size("c", bodies.c.size(), bodies.B.rows(), "the rows of B,");
+    slant::detail::require_finite_entries("B", bodies.B);
+    slant::detail::check_finite("c", bodies.c);
+    return c;
   }
 
   /// G λ = e. Not movable, so made in place.
@@ -236,8 +231,7 @@ class total_feti {
     vector_type const rest = resultants - gram * gram.colPivHouseholderQr().solve(resultants);
     index row = 0, body = 0;
     rest.cwiseAbs().maxCoeff(&row);
-    while (row >= inverse_.block(body).kernel().cols())
-      row -= inverse_.block(body++).kernel().cols();
+    while (row >= kernel_of(body).cols()) row -= kernel_of(body++).cols();
     return body;
   }
 

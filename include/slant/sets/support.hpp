@@ -159,23 +159,25 @@ class support_function : public detail::static_size<static_dimension_of<C>> {
   void visit(F&& f) const
     requires has_visit<set_type>
   {
-    part().visit([&](auto const& block, auto const& p) {
-      using block_type = std::remove_cvref_t<decltype(block)>;
-      f(support_function<block_type const&>(held<block_type const&>(block)), p);
-    });
+    part().visit(of_blocks(f));
   }
   /// f(block, place) for block k alone.
   template <class F>
   void visit_block(index k, F&& f) const
     requires has_visit<set_type>
   {
-    slant::visit_block(part(), k, [&](auto const& block, auto const& p) {
-      using block_type = std::remove_cvref_t<decltype(block)>;
-      f(support_function<block_type const&>(held<block_type const&>(block)), p);
-    });
+    slant::visit_block(part(), k, of_blocks(f));
   }
 
  private:
+  template <class F>
+  [[nodiscard]] static auto of_blocks(F& f) {
+    return [&](auto const& block, auto const& p) {
+      using block_type = std::remove_cvref_t<decltype(block)>;
+      f(support_function<block_type const&>(held<block_type const&>(block)), p);
+    };
+  }
+
   held<C> set_;
 };
 

@@ -4,6 +4,8 @@
 // and the numbers that show it.
 #pragma once
 
+#include <slant/concepts/bad_input.hpp>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -24,11 +26,36 @@ struct breach {
   return text;
 }
 
+namespace detail {
+
+/// Text of a number or a point; a text as it is.
+template <class T>
+[[nodiscard]] std::string text_of(T const& value) {
+  if constexpr (requires { value.transpose(); }) {
+    return "(" + slant::detail::show(value.transpose().eval()) + ")";
+  } else {
+    return slant::detail::show(value);
+  }
+}
+[[nodiscard]] inline std::string text_of(std::string const& text) {
+  return text;
+}
+[[nodiscard]] inline std::string text_of(char const* text) {
+  return text;
+}
+
+}  // namespace detail
+
 /// The first breach of each law; one is enough to find the mistake.
 class breach_log {
  public:
   void operator()(std::string const& law, std::string evidence) {
     if (!has(law)) found_.push_back({law, std::move(evidence)});
+  }
+  /// A breach unless the law `holds`; evidence: texts, numbers and points one after the other.
+  template <class... Part>
+  void expect(bool holds, char const* law, Part const&... evidence) {
+    if (!holds) (*this)(law, (std::string() + ... + detail::text_of(evidence)));
   }
   [[nodiscard]] bool has(std::string const& law) const {
     return std::any_of(found_.begin(), found_.end(), [&](breach const& b) { return b.law == law; });

@@ -67,10 +67,9 @@ void check_subgradients(F const& φ, S const& ρ, set_probe<S> const& probe,
     }
     if (conjugate < std::numeric_limits<S>::infinity()) {
       ++finite;
-      if (!(std::abs(at_x + conjugate - v.dot(x)) <= allowed(x) + probe.rounding(conjugate))) {
-        log("Fenchel-Young",
-            text_of(at_x) + " + " + text_of(conjugate) + " is not " + text_of(S(v.dot(x))) + where);
-      }
+      S const product = v.dot(x), room = allowed(x) + probe.rounding(conjugate);
+      log.expect(std::abs(at_x + conjugate - product) <= room, "Fenchel-Young", at_x, " + ",
+                 conjugate, " is not ", product, where);
     }
     for (std::size_t j = 1; j <= 6; ++j) {
       dense const& other = points[(k + 7 * j) % points.size()];
@@ -78,28 +77,23 @@ void check_subgradients(F const& φ, S const& ρ, set_probe<S> const& probe,
         S const there = value(w);
         if (!(there < std::numeric_limits<S>::infinity())) continue;
         S const slack = allowed(w) + probe.rounding(S(std::abs(there)));
-        if (!(there >= at_x + v.dot(w - x) - slack)) {
-          log("subgradient inequality", "w = " + text_of(w) + where);
-        }
-        if (!(conjugate >= v.dot(w) - there - slack)) {
-          log("conjugate is a bound", "w = " + text_of(w) + where);
-        }
+        log.expect(there >= at_x + v.dot(w - x) - slack, "subgradient inequality", "w = ", w,
+                   where);
+        log.expect(conjugate >= v.dot(w) - there - slack, "conjugate is a bound", "w = ", w, where);
       }
       dense const y = probe.project(other);
       S const both = probe.rounding(size + probe.magnitude(other) + slant::norm(y));
       S const room = both * (slant::norm(dense(z - other)) + slant::norm(dense(x - y)) + both);
-      if (!((x - y).squaredNorm() <= (z - other).dot(x - y) + room)) {
-        log("firmly nonexpansive", "w = " + text_of(other) + where);
-      }
+      log.expect((x - y).squaredNorm() <= (z - other).dot(x - y) + room, "firmly nonexpansive",
+                 "w = ", other, where);
     }
-    if (!(probe.project_in_place(z) == x)) log("in place", where);
-    if (!(probe.project_over_nan(z) == x)) log("overwriting", where);
+    log.expect(probe.project_in_place(z) == x, "in place", where);
+    log.expect(probe.project_over_nan(z) == x, "overwriting", where);
   }
   // Rounding of v takes it out of the domain here and there, in a product more often.
   std::size_t const share = has_visit<F> ? 1 : 3;
-  if (has_conjugate<F, point> && 4 * finite < share * points.size()) {
-    log("conjugate is finite at subgradients", "rho = " + text_of(ρ));
-  }
+  log.expect(!has_conjugate<F, point> || 4 * finite >= share * points.size(),
+             "conjugate is finite at subgradients", "rho = ", ρ);
 }
 
 template <class S>
@@ -109,9 +103,8 @@ void check_prox_states(set_probe<S> const& probe,
     auto const g = probe.slant(z);
     auto const s = probe.state(z);
     bool const nothing = (g.array() == S(0)).all(), all = g.isIdentity(S(0));
-    if ((s == block_state::fixed && !nothing) || (s == block_state::free && !all)) {
-      log("state and slant", "at z = " + text_of(z));
-    }
+    log.expect(s == block_state::fixed ? nothing : s != block_state::free || all, "state and slant",
+               "at z = ", z);
   }
 }
 
@@ -126,9 +119,8 @@ void check_function_blocks(F const& φ, S const& ρ, set_probe<S> const& probe,
       auto const part = slant::prox(block, ρ, place.value(z));
       place.put(x, part);
     });
-    if (!(slant::norm(dense(x - probe.project(z))) <= probe.rounding(probe.magnitude(z)))) {
-      log("prox is blockwise", "at z = " + text_of(z));
-    }
+    log.expect(slant::norm(dense(x - probe.project(z))) <= probe.rounding(probe.magnitude(z)),
+               "prox is blockwise", "at z = ", z);
   }
 }
 

@@ -41,15 +41,11 @@ void check_places(C const& set, breach_log& log) {
       if (c >= 0 && c < n) ++owners[std::size_t(c)];
     }
   });
-  if (!in_order || next != slant::block_count(set)) {
-    log("visit numbers the blocks",
-        "visited " + text_of(next) + " of " + text_of(slant::block_count(set)));
-  }
+  log.expect(in_order && next == slant::block_count(set), "visit numbers the blocks", "visited ",
+             next, " of ", slant::block_count(set));
   for (index i = 0; i < n; ++i) {
-    if (owners[std::size_t(i)] != 1) {
-      log("places share out the components",
-          "component " + text_of(i) + " belongs to " + text_of(owners[std::size_t(i)]) + " blocks");
-    }
+    log.expect(owners[std::size_t(i)] == 1, "places share out the components", "component ", i,
+               " belongs to ", owners[std::size_t(i)], " blocks");
   }
 }
 
@@ -138,26 +134,22 @@ struct block_laws : set_laws<S> {
   void check_blockwise(set_probe<S> const& blocks, dense const& x, dense const& d) const {
     dense const p = probe.project(x);
     S const size = probe.magnitude(x) + slant::norm(p);
-    if (!(slant::norm(dense(blocks.project(x) - p)) <= probe.rounding(size))) {
-      log("projection is blockwise", "at x = " + text_of(x));
-    }
-    if (probe.contains(x) != blocks.contains(x)) {
-      log("membership is blockwise", "at x = " + text_of(x));
-    }
-    if (probe.slant && !((probe.slant(x) - blocks.slant(x)).norm() <= probe.rounding(S(1)))) {
-      log("slant is blockwise", "at x = " + text_of(x));
+    log.expect(slant::norm(dense(blocks.project(x) - p)) <= probe.rounding(size),
+               "projection is blockwise", "at x = ", x);
+    log.expect(probe.contains(x) == blocks.contains(x), "membership is blockwise", "at x = ", x);
+    if (probe.slant) {
+      log.expect((probe.slant(x) - blocks.slant(x)).norm() <= probe.rounding(S(1)),
+                 "slant is blockwise", "at x = ", x);
     }
     if (probe.step) {
       S const step = blocks.step(p, d);
-      if (!agree(probe.step(p, d), step, probe.rounding(step))) {
-        log("step is blockwise", "at x = " + text_of(p) + ", d = " + text_of(d));
-      }
+      log.expect(agree(probe.step(p, d), step, probe.rounding(step)), "step is blockwise",
+                 "at x = ", p, ", d = ", d);
     }
     if (probe.support) {
-      S const support = blocks.support(d);
-      if (!agree(probe.support(d), support, probe.rounding(slant::norm(d) * size + support))) {
-        log("support is blockwise", "at y = " + text_of(d));
-      }
+      S const support = blocks.support(d),
+              allowed = probe.rounding(slant::norm(d) * size + support);
+      log.expect(agree(probe.support(d), support, allowed), "support is blockwise", "at y = ", d);
     }
   }
 
@@ -200,21 +192,19 @@ struct block_laws : set_laws<S> {
     for (auto const& y : points) {
       dense const x = probe.project(y);
       block_state const state = probe.state(x);
-      std::string const claim = name_of(state) + " at x = P(y), y = " + text_of(y);
+      auto const expect = [&](bool holds, char const* law) {
+        log.expect(holds, law, name_of(state), " at x = P(y), y = ", y);
+      };
       S const size = probe.extent(y) + slant::norm(x);
       S const gap = slant::norm(dense(y - x));
       S const noticeable = size / S(1 << 8);
       if (gap <= noticeable) {
         S const ρ = std::max(size, S(probe.options.size)) / S(1 << 8);
-        if (state != block_state::free && has_neighbourhood(x, ρ)) {
-          log("free in the interior", claim);
-        }
+        expect(state == block_state::free || !has_neighbourhood(x, ρ), "free in the interior");
         continue;
       }
-      if (state == block_state::free) {
-        log("not free on the boundary", claim);
-        continue;
-      }
+      expect(state != block_state::free, "not free on the boundary");
+      if (state == block_state::free) continue;
       using std::sqrt;
       S const ε = S(4) * std::numeric_limits<S>::epsilon();
       S const small = gap * S(8) * S(sqrt(std::numeric_limits<S>::epsilon()));
@@ -225,8 +215,8 @@ struct block_laws : set_laws<S> {
         always = always && moves_near(nearby, small, ε * probe.magnitude(x), sample);
         ever = ever || moves_near(nearby, S(gap / S(64)), ε * probe.extent(x), sample);
       }
-      if (state == block_state::sliding && !ever) log("sliding leaves motion", claim);
-      if (state == block_state::fixed && always) log("fixed leaves no motion", claim);
+      expect(state != block_state::sliding || ever, "sliding leaves motion");
+      expect(state != block_state::fixed || !always, "fixed leaves no motion");
     }
   }
 

@@ -268,11 +268,8 @@ struct slanting_protocol {
     auto const [rows, cols] = f.slope_size(y);
     index const n = slant::local(y).size();
     bool const fit = rows == f.rows && cols == f.cols && f.cols == n;
-    if (!fit) {
-      report("sizes", std::to_string(rows) + " x " + std::to_string(cols) + " for F of " +
-                          std::to_string(f.rows) + " values, " + std::to_string(f.cols) +
-                          " arguments, at y with " + std::to_string(n));
-    }
+    report.expect(fit, "sizes", rows, " x ", cols, " for F of ", f.rows, " values, ", f.cols,
+                  " arguments, at y with ", n);
     return fit;
   }
 
@@ -323,11 +320,9 @@ struct slanting_protocol {
  private:
   [[nodiscard]] S tolerance() const { return rounding * std::numeric_limits<S>::epsilon(); }
   /// ‖a − b‖ <= bound, and not NaN.
-  void expect(std::string const& law, V const& a, V const& b, S const& bound) const {
+  void expect(char const* law, V const& a, V const& b, S const& bound) const {
     S const size = slant::norm(moved(a, S(-1), b));
-    if (!(size <= bound)) {
-      report(law, "difference " + slant::detail::show(static_cast<double>(size)));
-    }
+    report.expect(size <= bound, law, "difference ", static_cast<double>(size));
   }
 };
 
@@ -351,30 +346,31 @@ namespace detail {
 
 /// The limit and the boundedness of F° near y.
 template <class V>
-class slanting_limits {
+struct slanting_limits {
   using S = scalar_t<V>;
   static constexpr std::size_t scales = 6;
 
- public:
-  slanting_limits(observed_function<V> const& f, V const& y, S const& length,
-                  slanting_options const& options, sampler& sample, breach_log& report)
-      : f_(f), y_(y), length_(length), options_(options), sample_(sample), report_(report) {}
+  observed_function<V> const& f;
+  V const& y;
+  S length;
+  slanting_options const& options;
+  sampler& sample;
+  breach_log& report;
+  S steepest{};  ///< at y
 
   void run() {
-    auto const directions = directions_at(f_, y_, length_, options_.directions, sample_);
-    auto const value = f_.value(y_);
+    auto const directions = directions_at(f, y, length, options.directions, sample);
+    auto const value = f.value(y);
     for (auto const& h : directions) {
       bounded(h);
-      steepness_ = std::max<S>(steepness_, steepness(y_, value, h));
+      steepest = std::max<S>(steepest, steepness(y, value, h));
     }
-    for (auto const& h : directions) limit(y_, h, "at y");
-    for (int k = 0; k < options_.kink_searches; ++k) kink();
+    for (auto const& h : directions) limit(y, h, "at y");
+    for (int k = 0; k < options.kink_searches; ++k) kink();
   }
 
  private:
-  static std::string text(S const& value) {
-    return slant::detail::show(static_cast<double>(value));
-  }
+  static std::string text(S const& value) { return text_of(static_cast<double>(value)); }
   static S epsilon() { return std::numeric_limits<S>::epsilon(); }
   /// Fraction of the direction at scale k: ε^¼ … √ε.
   static S fraction(std::size_t k) {
@@ -388,14 +384,14 @@ class slanting_limits {
   /// ‖F°‖ does not grow towards y in any direction. Each direction is judged alone: an admissible
   /// large F° where one component stays at its kink must not cover growth elsewhere.
   void bounded(V const& h) {
-    V const other = sample_(y_, f_.cols);
+    V const other = sample(y, f.cols);
     std::array<S, scales> slope{};
     bool grows = true;
     std::string evidence;
     for (std::size_t k = 0; k < scales; ++k) {
-      V const p = moved(y_, fraction(k), h);
+      V const p = moved(y, fraction(k), h);
       for (auto const* x : {&h, &other}) {
-        S const along = slant::norm(f_.slope(p, *x)) / slant::norm(*x);
+        S const along = slant::norm(f.slope(p, *x)) / slant::norm(*x);
         if (exceeds(along, slope[k])) slope[k] = along;
       }
       if (k > 0) grows = grows && exceeds(slope[k], slope[k - 1] * S(5) / S(4));
@@ -403,44 +399,44 @@ class slanting_limits {
     }
     bool const finite = slope.back() - slope.back() == S(0);
     grows = grows && exceeds(slope.back(), S(8) * slope.front());
-    if (!finite || grows) report_("slant bounded", evidence);
+    report.expect(finite && !grows, "slant bounded", evidence);
   }
 
   /// ‖ΔF‖/‖h‖ over the longest step, which rounding hardly touches. So what is taken for rounding
   /// below does not depend on F°, which may be wrong.
-  [[nodiscard]] S steepness(V const& y, V const& value, V const& h) const {
-    V const p = moved(y, fraction(0), h);
-    return S(slant::norm(moved(f_.value(p), S(-1), value)) / slant::norm(moved(p, S(-1), y)));
+  [[nodiscard]] S steepness(V const& at, V const& value, V const& h) const {
+    V const p = moved(at, fraction(0), h);
+    return S(slant::norm(moved(f.value(p), S(-1), value)) / slant::norm(moved(p, S(-1), at)));
   }
 
-  void limit(V const& y, V const& h, std::string const& where) {
+  void limit(V const& at, V const& h, std::string const& where) {
     using std::pow;
-    auto const value = f_.value(y);
-    S const unit = S(options_.rounding) * epsilon();
-    S const slope = std::max<S>(steepness_, steepness(y, value, h));
-    S const noise = unit * (slant::norm(value) + slope * slant::norm(y));
+    auto const value = f.value(at);
+    S const unit = S(options.rounding) * epsilon();
+    S const slope = std::max<S>(steepest, steepness(at, value, h));
+    S const noise = unit * (slant::norm(value) + slope * slant::norm(at));
     std::array<S, scales> error{};
     bool good = false;
     std::string evidence = where;
     for (std::size_t k = 0; k < scales; ++k) {
-      auto const p = predict(f_, y, value, moved(y, fraction(k), h));
+      auto const p = predict(f, at, value, moved(at, fraction(k), h));
       error[k] = p.defect;
       bool decays = k > 0;
       for (std::size_t j = 0; j < k; ++j) {
         S const ratio = fraction(k) / fraction(j);
-        decays = decays && error[k] <= S(pow(ratio, S(options_.order))) * error[j];
+        decays = decays && error[k] <= S(pow(ratio, S(options.order))) * error[j];
       }
       // If a kink is between the last two scales, only the last one can be good.
       if (k + 2 >= scales) good = good || decays || error[k] <= noise / p.step + unit * slope;
       evidence += (k == 0 ? ", |h|: error " : ", ") + text(p.step) + ": " + text(p.defect);
     }
-    if (!good) report_("slanting limit", evidence);
+    report.expect(good, "slanting limit", evidence);
   }
 
   void kink() {
-    V h = sample_(y_, f_.cols);
-    if (!scale_to(h, S(2) * length_)) return;
-    auto const [a, b] = kink_search<V>(f_)(y_, h);
+    V h = sample(y, f.cols);
+    if (!scale_to(h, S(2) * length)) return;
+    auto const [a, b] = kink_search<V>(f)(y, h);
     V opposite = h;
     slant::local(opposite) *= S(-1);
     for (auto const* p : {&a, &b}) {
@@ -448,14 +444,6 @@ class slanting_limits {
       limit(*p, opposite, "at a kink");
     }
   }
-
-  observed_function<V> const& f_;
-  V const& y_;
-  S length_;
-  slanting_options options_;
-  sampler& sample_;
-  breach_log& report_;
-  S steepness_{};  ///< the largest one at y
 };
 
 }  // namespace detail
@@ -479,7 +467,7 @@ template <class F, vector V>
   protocol.overwriting();
   protocol.linear();
   protocol.renewal();
-  detail::slanting_limits<V>(observed, y, length, options, sample, report).run();
+  detail::slanting_limits<V>{observed, y, length, options, sample, report}.run();
   return report.found();
 }
 

@@ -64,6 +64,49 @@ struct coulomb_violation {
   index contact = -1;  ///< which node that is; −1: there is none
 };
 
+namespace detail {
+
+/// What coulomb_check finds, from load, rows B and −(N u − d), −(T u − w).
+template <class V>
+[[nodiscard]] coulomb_violation<scalar_t<V>> violation_of_coulomb(
+    V const& load, Eigen::SparseMatrix<scalar_t<V>> const& B, V const& gaps, V const& F, V const& λ,
+    V const& u) {
+  using scalar = scalar_t<V>;
+  V const forces = B.transpose() * λ;
+  scalar const unit = std::max<scalar>(load.stableNorm(), forces.stableNorm());
+  scalar const size = unit > scalar(0) ? unit : scalar(1), moved = u.stableNorm();
+  // u = 0 moves nothing: then any gap that is not there counts.
+  scalar const widest = gaps.size() > 0 ? scalar(gaps.cwiseAbs().maxCoeff()) : scalar(0);
+  scalar const ρ = moved > scalar(0)    ? (load - forces).stableNorm() / size / moved
+                   : widest > scalar(0) ? scalar(1) / widest
+                                        : scalar(1);
+  coulomb_violation<scalar> v;
+  index const m = F.size(), k = m > 0 ? index(λ.size()) / m - 1 : 0;
+  V each(m), part(k + 1);
+  for (index i = 0; i < m; ++i) {
+    scalar const pressure = λ(i) / size, pushed = pressure - ρ * gaps(i);
+    scalar const bound = F(i) * (pressure > scalar(0) ? pressure : scalar(0));
+    part(0) = pushed > scalar(0) ? ρ * gaps(i) : pressure;
+    auto const τ = λ.segment(m + k * i, k) / size;
+    part.tail(k) = τ - ρ * gaps.segment(m + k * i, k);
+    scalar const length = part.tail(k).stableNorm();
+    scalar const kept = length > bound ? bound / length : scalar(1);
+    part.tail(k) = τ - kept * part.tail(k);
+    // Norms may pass over a NaN.
+    scalar const sum = pressure + gaps(i) + τ.sum() + gaps.segment(m + k * i, k).sum();
+    each(i) = sum == sum ? scalar(part.stableNorm()) : sum;
+    if (each(i) > v.largest || each(i) != each(i)) {
+      v.largest = each(i);
+      v.contact = i;
+    }
+  }
+  bool const known = v.largest == v.largest;
+  v.relative = m > 0 && known ? scalar(each.stableNorm()) : v.largest;
+  return v;
+}
+
+}  // namespace detail
+
 /// The check at the top of this file for a dual problem (contact/dual.hpp) and coefficients F of
 /// its contact nodes. Refers to the problem.
 template <class Dual>
@@ -81,44 +124,11 @@ class coulomb_check {
     auto const& p = *problem_;
     slant::detail::check_size("lambda", index(λ.size()), index(p.b().size()));
     slant::detail::check_size("u", index(u.size()), index(p.load().size()));
-    vector_type const forces = p.constraints().transpose() * λ;
-    vector_type const gaps = p.openings(u);  // −(N u − d), −(T u − w)
-    scalar const unit = std::max<scalar>(p.load().stableNorm(), forces.stableNorm());
-    scalar const size = unit > scalar(0) ? unit : scalar(1), moved = u.stableNorm();
-    // u = 0 moves nothing: then any gap that is not there counts.
-    scalar const ρ = moved > scalar(0) ? (p.load() - forces).stableNorm() / size / moved
-                                       : scalar(1) / largest(gaps);
-    coulomb_violation<scalar> v;
-    index const m = F_.size(), k = m > 0 ? index(λ.size()) / m - 1 : 0;
-    vector_type each(m), part(k + 1);
-    for (index i = 0; i < m; ++i) {
-      scalar const pressure = λ(i) / size, pushed = pressure - ρ * gaps(i);
-      scalar const bound = F_(i) * (pressure > scalar(0) ? pressure : scalar(0));
-      part(0) = pushed > scalar(0) ? ρ * gaps(i) : pressure;
-      auto const τ = λ.segment(m + k * i, k) / size;
-      part.tail(k) = τ - ρ * gaps.segment(m + k * i, k);
-      scalar const length = part.tail(k).stableNorm();
-      scalar const kept = length > bound ? bound / length : scalar(1);
-      part.tail(k) = τ - kept * part.tail(k);
-      // Norms may pass over a NaN.
-      scalar const sum = pressure + gaps(i) + τ.sum() + gaps.segment(m + k * i, k).sum();
-      each(i) = sum == sum ? scalar(part.stableNorm()) : sum;
-      if (each(i) > v.largest || each(i) != each(i)) {
-        v.largest = each(i);
-        v.contact = i;
-      }
-    }
-    bool const known = v.largest == v.largest;
-    v.relative = m > 0 && known ? scalar(each.stableNorm()) : v.largest;
-    return v;
+    return detail::violation_of_coulomb<vector_type>(p.load(), p.constraints(), p.openings(u), F_,
+                                                     λ, u);
   }
 
  private:
-  static scalar largest(vector_type const& x) {
-    scalar const size = x.size() > 0 ? scalar(x.cwiseAbs().maxCoeff()) : scalar(0);
-    return size > scalar(0) ? size : scalar(1);
-  }
-
   Dual const* problem_;
   vector_type F_;
 };

@@ -17,6 +17,7 @@
 
 #include <slant/base/entries.hpp>
 #include <slant/base/scaling.hpp>
+#include <slant/concepts/iterative_method.hpp>
 #include <slant/contact/friction/friction_problem.hpp>
 #include <slant/sets/second_order_cone.hpp>
 
@@ -47,6 +48,21 @@ struct friction_error {
   }
   /// Those without units at most `tolerance`, and `plain` a number.
   [[nodiscard]] bool at_most(S const& tolerance) const { return worst() <= tolerance; }
+};
+
+/// What the states of friction_gauss_seidel and friction_interior_point have in common.
+template <class S>
+struct friction_iterate {
+  using vector_type = Eigen::VectorX<S>;
+  vector_type x{};            ///< forces, in the units of the blocks
+  vector_type u{};            ///< W x + q
+  friction_error<S> error{};  ///< of x
+  vector_type best{};         ///< the x with the smallest error so far
+  friction_error<S> best_error{};
+  index iteration = 0;    ///< steps
+  index evaluations = 0;  ///< of the error: a product by W each
+  index since_best = 0;   ///< steps
+  slant::status status = slant::status::running;
 };
 
 /// A friction_problem in blocks; see the top of this file. N is its dimension, 2 or 3.

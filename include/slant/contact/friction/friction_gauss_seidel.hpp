@@ -77,13 +77,11 @@ template <int N, class S>
   using slant::detail::from_entries;
   using slant::detail::length_of;
   using slant::detail::multiple_of;
+  using slant::detail::over;
   using std::abs;
   constexpr int T = N - 1;
   using tangent = Eigen::Matrix<S, T, 1>;
   using matrix = Eigen::Matrix<S, T, T>;
-  auto const over = [](tangent const& t, S const& a) {
-    return from_entries<tangent>([&](int i) -> S { return t(i) / a; });
-  };
   auto const force = [&](S const& n, tangent const& t) {
     return from_entries<Eigen::Matrix<S, N, 1>>([&](int i) { return i == 0 ? n : t(i - 1); });
   };
@@ -246,33 +244,21 @@ class friction_sweeps {
 /// Options of friction_gauss_seidel.
 template <class S>
 struct gauss_seidel_options {
-  index sweeps = 10;      ///< of one step, before and after the extrapolation
   index patience = 3000;  ///< steps without a new smallest error that mean stalled
 
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    slant::detail::check_option("sweeps", sweeps, sweeps >= 1, "at least 1");
     slant::detail::check_option("patience", patience, patience >= 1, "at least 1");
   }
 };
 
 /// State of friction_gauss_seidel.
 template <class S>
-struct gauss_seidel_state {
-  using vector_type = Eigen::VectorX<S>;
-  vector_type x{};            ///< forces, in the units of the blocks
-  vector_type u{};            ///< W x + q
-  friction_error<S> error{};  ///< of x
-  vector_type best{};         ///< the x with the smallest error so far
-  friction_error<S> best_error{};
+struct gauss_seidel_state : friction_iterate<S> {
   S length = S(1);           ///< t
-  index iteration = 0;       ///< steps
   index sweeps = 0;          ///< passes over the contacts
   index block_products = 0;  ///< blocks of W multiplied in them
-  index evaluations = 0;     ///< of the error: a product by W each
-  index since_best = 0;
-  slant::status status = slant::status::running;
-  vector_type trial{}, trial_u{};
+  Eigen::VectorX<S> trial{}, trial_u{};
   friction_sweep_memory<S> memory{};
 };
 
@@ -311,12 +297,13 @@ class friction_gauss_seidel {
     s.trial = s.x;
     pass(s, s.x, most);
     s.error = measure(s, s.x, s.u);
-    if (most > options_.sweeps) extrapolate(s, most - options_.sweeps);
+    if (most > sweeps_of_pass) extrapolate(s, most - sweeps_of_pass);
     judge(s);
   }
 
  private:
-  static constexpr index full_every = 10;  // every which sweep looks at all contacts
+  static constexpr index sweeps_of_pass = 10;  // before and after the extrapolation of a step
+  static constexpr index full_every = 10;      // every which sweep looks at all contacts
 
   void extrapolate(state_type& s, index most) const {
     for (index k = 0; k < s.x.size(); ++k) s.trial[k] = s.x[k] + s.length * (s.x[k] - s.trial[k]);
@@ -352,7 +339,7 @@ class friction_gauss_seidel {
     return blocks_->error(x, u);
   }
   void pass(state_type& s, vector_type& x, index most) const {
-    for (index k = 0; k < std::min(options_.sweeps, most); ++k) {
+    for (index k = 0; k < std::min(sweeps_of_pass, most); ++k) {
       s.block_products += sweeps_.sweep(x, s.memory, s.sweeps % full_every == 0);
       ++s.sweeps;
     }

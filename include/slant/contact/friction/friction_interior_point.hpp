@@ -102,6 +102,7 @@ class lorentz_scaling {
   /// x and s move by T⁻¹dx and Tᵀds; both stay inside of the cone.
   void move(part const& dx, part const& ds) {
     using slant::detail::combination;
+    using slant::detail::over;
     using slant::detail::product_of;
     using std::sqrt;
     part const x = combination(S(1), λ_, S(1), dx), s = combination(S(1), λ_, S(1), ds);
@@ -122,9 +123,6 @@ class lorentz_scaling {
   }
 
  private:
-  [[nodiscard]] static part over(part const& x, S const& a) {
-    return slant::detail::from_entries<part>([&](int i) -> S { return x[i] / a; });
-  }
   /// TᵀT = η (2 w wᵀ − J) with w_0² − ‖w_t‖² = 1, so that Σ² / η is k² = (w_0 + ‖w_t‖)², 1/k² and
   /// 1: on the light rays (1, ±w_t/‖w_t‖), and across. TᵀT e has the tangential part 2 η w_0 w_t.
   void factor(block const& T) {
@@ -270,27 +268,14 @@ struct friction_interior_options {
   }
 };
 
-/// State of friction_interior_point.
+/// State of friction_interior_point; x is inside of the cones.
 template <int N, class S>
-struct friction_interior_state {
-  using vector_type = Eigen::VectorX<S>;
-  vector_type x{};            ///< forces, inside of their cones, in the units of the blocks
-  vector_type u{};            ///< W x + q
-  friction_error<S> error{};  ///< of x
-  vector_type best{};         ///< the x with the smallest error so far
-  friction_error<S> best_error{};
-  S γ{};                     ///< mean xᵀs of the contacts: 0 at a solution
-  S α = S(0);                ///< of the proximal term
-  S length = S(0);           ///< of the last step; 0 if none was made
-  index iteration = 0;       ///< steps: of each a factorisation and two solutions
-  index evaluations = 0;     ///< of the error: a product by W each
-  index factorizations = 0;  ///< matrices factored
-  index factored_rows = 0;   ///< of all matrices together
-  index sparse = 0;          ///< how many of them were sparse
-  index since_best = 0;      ///< steps
-  slant::status status = slant::status::running;
+struct friction_interior_state : friction_iterate<S> {
+  S γ{};            ///< mean xᵀs of the contacts: 0 at a solution
+  S α = S(0);       ///< of the proximal term
+  S length = S(0);  ///< of the last step, a factorisation and two solutions; 0 if none was made
   std::vector<detail::friction_cone_pair<N, S>> contacts{};
-  vector_type right{}, z{};
+  Eigen::VectorX<S> right{}, z{};
   detail::block_lu<N, S> lu{};
 };
 
@@ -432,11 +417,7 @@ class friction_interior_point {
             i, [&](index j, block const& W) { put(i, j, row.block_of(c[std::size_t(j)], W)); });
       }
     };
-    bool const good = s.lu.factor(count(), blocks_->block_count(), assemble);
-    ++s.factorizations;
-    s.factored_rows += blocks_->size();
-    s.sparse += s.lu.is_sparse() ? 1 : 0;
-    return good;
+    return s.lu.factor(count(), blocks_->block_count(), assemble);
   }
   /// dx and ds for the aim, and how far it is to the boundary; 0 if they are no numbers.
   [[nodiscard]] S find_direction(state_type& s) const {

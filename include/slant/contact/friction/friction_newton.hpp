@@ -66,6 +66,13 @@ struct friction_map {
 
 // --- block lu ------------------------------------------------------------------------------------
 
+/// What block_lu has factored.
+struct block_lu_work {
+  index factorizations = 0;  ///< matrices
+  index rows = 0;            ///< of all of them together
+  index sparse = 0;          ///< how many of them were sparse
+};
+
 /// LU factors of a matrix of N × N blocks that is assembled anew at every Newton step: a sparse LU,
 /// which allocates, as does the assembly; of a small or full matrix a dense LU, which does not for
 /// a size that it has seen.
@@ -81,6 +88,9 @@ class block_lu {
   [[nodiscard]] bool factor(index rows, index count, Assemble const& assemble) {
     index const n = N * rows;
     sparse_ = n > 48 && 8 * N * N * count <= n * n;
+    ++work_.factorizations;
+    work_.rows += n;
+    work_.sparse += sparse_ ? 1 : 0;
     return sparse_ ? factor_sparse(n, count, assemble) : factor_dense(n, assemble);
   }
   /// x = M⁻¹ b; false if that is not finite.
@@ -93,8 +103,7 @@ class block_lu {
     }
     return slant::detail::is_finite(S(x.norm()));
   }
-  /// Which LU the last matrix had.
-  [[nodiscard]] bool is_sparse() const { return sparse_; }
+  [[nodiscard]] block_lu_work const& work() const { return work_; }
 
  private:
   template <class Assemble>
@@ -129,6 +138,7 @@ class block_lu {
   }
 
   bool sparse_ = false;
+  block_lu_work work_;
   Eigen::MatrixX<S> dense_;
   Eigen::PartialPivLU<Eigen::MatrixX<S>> dense_lu_;
   std::vector<Eigen::Triplet<S>> triplets_;
@@ -139,15 +149,6 @@ class block_lu {
 }  // namespace detail
 
 // --- friction newton -----------------------------------------------------------------------------
-
-/// Counts of friction_newton.
-struct friction_newton_work {
-  index steps = 0;           ///< directions
-  index evaluations = 0;     ///< of F: a product by W each
-  index factorizations = 0;  ///< matrices factored
-  index unknowns = 0;        ///< rows of all of them together
-  index sparse = 0;          ///< how many of them were sparse
-};
 
 /// Newton steps on a problem in blocks, to which it refers.
 template <int N, scalar S = double>
@@ -176,7 +177,10 @@ class friction_newton {
     }
   }
 
-  [[nodiscard]] friction_newton_work const& work() const { return work_; }
+  /// Directions so far; evaluations of F, a product by W each; and what was factored.
+  [[nodiscard]] index steps() const { return steps_; }
+  [[nodiscard]] index evaluations() const { return evaluations_; }
+  [[nodiscard]] detail::block_lu_work const& factored() const { return lu_.work(); }
 
   /// F at r; also what `advance` starts from. Returns ‖F‖.
   S begin(vector_type const& r) {
@@ -186,12 +190,13 @@ class friction_newton {
   }
   /// One step from r, for which `begin` or the last `advance` was called; false, and r unchanged,
   /// if there is no direction or no length that makes ‖F‖ fall.
-  bool advance(vector_type& r, S const& δ, index halvings) {
-    ++work_.steps;
+  bool advance(vector_type& r, S const& δ) {
+    constexpr index halvings = 8;
+    ++steps_;
     differentiate(r);
     if (!find_direction(δ)) return false;
     blocks_->multiply(direction_, image_);
-    ++work_.evaluations;
+    ++evaluations_;
     S β = S(1);
     for (index k = 0; k <= halvings; ++k, β /= S(2)) {
       trial_ = r + β * direction_;
@@ -218,7 +223,7 @@ class friction_newton {
  private:
   void velocity(vector_type const& r, vector_type& u) {
     blocks_->velocity(r, u);
-    ++work_.evaluations;
+    ++evaluations_;
   }
   [[nodiscard]] S rho(index i) const { return S(1) / weight_[i]; }
 
@@ -260,11 +265,8 @@ class friction_newton {
       part_type const moved = slant::detail::product_of(maps_[std::size_t(i)].B, known);
       for (int a = 0; a < N; ++a) right_[N * k + a] = direction_[N * i + a] - moved[a];
     }
-    ++work_.factorizations;
-    work_.unknowns += n;
     bool const good =
         lu_.factor(index(closed_.size()), entries, [&](auto put) { assemble(δ, put); });
-    work_.sparse += lu_.is_sparse() ? 1 : 0;
     if (!good || !lu_.solve(right_, solution_)) return false;
     for (index k = 0; k < index(closed_.size()); ++k) {
       blocks_->put(blocks_->part_of(solution_, k), closed_[std::size_t(k)], direction_);
@@ -295,7 +297,7 @@ class friction_newton {
   vector_type F_, u_, direction_, image_, trial_, trial_u_, right_, solution_;
   S F_norm_{}, length_{1};
   detail::block_lu<N, S> lu_;
-  friction_newton_work work_;
+  index steps_ = 0, evaluations_ = 0;
 };
 
 }  // namespace slant::contact

@@ -172,6 +172,7 @@ template <class S>
                                        S ρ = S(1)) {
   using vector_type = typename friction_problem<S>::vector_type;
   using block = detail::contact_vector<S>;
+  using slant::detail::over;
   using std::abs;
   p.validate();
   slant::detail::check_size("r", index(r.size()), index(p.q.size()));
@@ -198,9 +199,6 @@ template <class S>
     S const μ = p.mu[i];
     auto const part_of = [&](vector_type const& x) {
       return slant::detail::from_entries<block>([&](int k) { return k < d ? x[i * d + k] : S(0); });
-    };
-    auto const over = [](block const& x, S const& unit) {
-      return slant::detail::from_entries<block>([&](int k) -> S { return x[k] / unit; });
     };
     block const ri = part_of(r), ui = part_of(u);
     block v = slant::detail::multiple_of(ρ, ui);

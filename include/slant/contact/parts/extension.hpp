@@ -54,7 +54,48 @@ class scene_matrices {
 
   scene_matrices(sparse_type const& K, data<S> const& c)
       : B(stacked_constraints(c)), rows(B.transpose()), K_(&K) {
-    prepare();
+    index const n = B.rows(), m = K.rows();
+    vector_type v = vector_type::Zero(m);
+    inverse_squares.setZero(n);
+    stiffness.setConstant(n, std::numeric_limits<S>::infinity());
+    vector_type const squares = row_squares(B);
+    touched = touched_unknowns(B);
+    for (index j = 0; j < m; ++j) {
+      all.push_back(j);
+      longest = std::max<index>(longest, K.col(j).nonZeros());
+      largest = std::max<S>(largest, K.col(j).cwiseAbs().sum());
+    }
+    for (index i = 0; i < n; ++i) {
+      if (squares(i) > S(0)) inverse_squares(i) = S(1) / squares(i);
+      longest = std::max<index>(longest, rows.col(i).nonZeros());
+      size_of_B = std::max<S>(size_of_B, squares(i));
+    }
+    using std::sqrt;
+    S const eps = std::numeric_limits<S>::epsilon();
+    tiny = S(8 * (longest + 4)) * eps * eps;
+    largest *= S(1) + S(4 * (longest + 4)) * eps;
+    // ‖B‖₂ ≤ ‖B‖_F, and here twice the longest row where rows are orthogonal.
+    size_of_B = S(2) * sqrt(size_of_B);
+    // BBᵀ: orthogonal rows have nothing but rounding off the diagonal.
+    sparse_type const gram = B * rows;
+    slant::detail::for_each_entry(gram, [&](index i, index j, S const& value) {
+      using std::abs;
+      S const cosine = abs(value) * sqrt(inverse_squares(j)) * sqrt(inverse_squares(i));
+      if (i != j && cosine > S(8) * eps) is_orthogonal = false;
+    });
+    // m_i = diag of D B K BᵀD.
+    for (index i = 0; i < n; ++i) {
+      if (!(inverse_squares(i) > S(0))) continue;
+      S sum(0);
+      for (typename sparse_type::InnerIterator e(rows, i); e; ++e) v(e.row()) = e.value();
+      for (typename sparse_type::InnerIterator e(rows, i); e; ++e) {
+        for (typename sparse_type::InnerIterator k(K, e.row()); k; ++k) {
+          sum += e.value() * k.value() * v(k.row());
+        }
+      }
+      for (typename sparse_type::InnerIterator e(rows, i); e; ++e) v(e.row()) = S(0);
+      stiffness(i) = inverse_squares(i) * (inverse_squares(i) * sum);
+    }
   }
 
   [[nodiscard]] sparse_type const& K() const { return *K_; }
@@ -120,51 +161,6 @@ class scene_matrices {
   }
 
  private:
-  void prepare() {
-    index const n = B.rows(), m = K().rows();
-    vector_type v = vector_type::Zero(m);
-    inverse_squares.setZero(n);
-    stiffness.setConstant(n, std::numeric_limits<S>::infinity());
-    vector_type const squares = row_squares(B);
-    touched = touched_unknowns(B);
-    for (index j = 0; j < m; ++j) {
-      all.push_back(j);
-      longest = std::max<index>(longest, K().col(j).nonZeros());
-      largest = std::max<S>(largest, K().col(j).cwiseAbs().sum());
-    }
-    for (index i = 0; i < n; ++i) {
-      if (squares(i) > S(0)) inverse_squares(i) = S(1) / squares(i);
-      longest = std::max<index>(longest, rows.col(i).nonZeros());
-      size_of_B = std::max<S>(size_of_B, squares(i));
-    }
-    using std::sqrt;
-    S const eps = std::numeric_limits<S>::epsilon();
-    tiny = S(8 * (longest + 4)) * eps * eps;
-    largest *= S(1) + S(4 * (longest + 4)) * eps;
-    // ‖B‖₂ ≤ ‖B‖_F, and here twice the longest row where rows are orthogonal.
-    size_of_B = S(2) * sqrt(size_of_B);
-    // BBᵀ: orthogonal rows have nothing but rounding off the diagonal.
-    sparse_type const gram = B * rows;
-    slant::detail::for_each_entry(gram, [&](index i, index j, S const& value) {
-      using std::abs;
-      S const cosine = abs(value) * sqrt(inverse_squares(j)) * sqrt(inverse_squares(i));
-      if (i != j && cosine > S(8) * eps) is_orthogonal = false;
-    });
-    // m_i = diag of D B K BᵀD.
-    for (index i = 0; i < n; ++i) {
-      if (!(inverse_squares(i) > S(0))) continue;
-      S sum(0);
-      for (typename sparse_type::InnerIterator e(rows, i); e; ++e) v(e.row()) = e.value();
-      for (typename sparse_type::InnerIterator e(rows, i); e; ++e) {
-        for (typename sparse_type::InnerIterator k(K(), e.row()); k; ++k) {
-          sum += e.value() * k.value() * v(k.row());
-        }
-      }
-      for (typename sparse_type::InnerIterator e(rows, i); e; ++e) v(e.row()) = S(0);
-      stiffness(i) = inverse_squares(i) * (inverse_squares(i) * sum);
-    }
-  }
-
   sparse_type const* K_;
 };
 

@@ -28,10 +28,9 @@
 #include <slant/contact/contact_data.hpp>
 #include <slant/contact/coulomb/coulomb_certificate.hpp>
 #include <slant/contact/friction_law.hpp>
-#include <slant/contact/node_layout.hpp>
 #include <slant/contact/parts/alart_curnier_steps.hpp>
 #include <slant/contact/parts/iterated_run.hpp>
-#include <slant/multilevel/multigrid.hpp>
+#include <slant/contact/solve_options.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -43,67 +42,35 @@
 
 namespace slant::contact::detail {
 
-/// What coulomb_check asks of a dual problem, from the data: contacts of the body as they lie.
-template <class S>
-class checked_rows {
- public:
-  using vector_type = Eigen::VectorX<S>;
-  using sparse_type = Eigen::SparseMatrix<S>;
-
-  /// With tangential positions w; none: 0.
-  checked_rows(data<S> const& c, vector_type const& w)
-      : f_(c.f), B_(stacked_constraints(c)), b_(vector_type::Zero(B_.rows())) {
-    b_.head(c.nodes()) = c.d;
-    if (w.size() > 0) b_.tail(w.size()) = w;
-  }
-  [[nodiscard]] vector_type const& b() const { return b_; }
-  [[nodiscard]] vector_type const& load() const { return f_; }
-  [[nodiscard]] sparse_type const& constraints() const { return B_; }
-  /// −(N u − d), −(T u − w)
-  [[nodiscard]] vector_type openings(vector_type const& u) const { return b_ - B_ * u; }
-
- private:
-  vector_type f_;
-  sparse_type B_;
-  vector_type b_;
-};
-
 /// Of Newton's method at most, for each problem of Tresca's; and for so many after the first.
 constexpr index steps_for_bounds = 40;
 [[nodiscard]] constexpr index steps_for_problems(index problems) {
   return steps_for_bounds * (std::min(problems, std::numeric_limits<index>::max() / 64) + 1);
 }
 
-/// What a run of iterated_coulomb found.
-template <class S>
-struct iterated_coulomb_result {
-  using vector_type = Eigen::VectorX<S>;
-
-  vector_type u, λ;
-  coulomb_error<S> error{};
-  slant::status status = status::running;
-  std::string reason;      ///< of an end other than converged
-  index bounds = 0;        ///< problems of Tresca's
-  index newton_steps = 0;  ///< for Coulomb's law
-  slant::work work{};
-  std::string levels;
-};
-
-/// Steps and bounds until the certificate agrees, from where the run is and the bounds that it has;
-/// `most` problems of Tresca's. `newton` is made for the run and F where it is needed.
+/// Steps and bounds until the certificate agrees, from where the run is and the bounds that it has,
+/// and what has come of them but for the choice of a route; with tangential positions w, none: 0.
+/// `newton` is made for the run and F where it is needed.
 template <class Friction, class S, class Certificate>
-[[nodiscard]] iterated_coulomb_result<S> run_coulomb_to_certified(
+[[nodiscard]] certified_coulomb_result<Eigen::VectorX<S>> run_coulomb_to_certified(
     Friction law, primal_run<S>& run, std::optional<alart_curnier_steps<S>>& newton,
-    moving_springs<S>& springs, Certificate& frozen, checked_rows<S> const& rows,
-    Eigen::VectorX<S> const& F, S const& tolerance, index most) {
+    moving_springs<S>& springs, Certificate& frozen, data<S> const& c, Eigen::VectorX<S> const& w,
+    Eigen::VectorX<S> const& F, certified_coulomb_options<S> const& o) {
   using vector_type = Eigen::VectorX<S>;
   constexpr index patience = 15, rounds = 12, newton_steps = 12;
   constexpr char const* no_more = "no more problems of Tresca's were allowed";
-  iterated_coulomb_result<S> result;
-  result.levels = run.levels().description();
+  certified_coulomb_result<vector_type> result{};
+  result.factorization = run.levels().description();
+  S const tolerance(o.tolerance);
+  index bounds = 0;
+  auto how = status::converged;
+  std::string why;
   index const before = frozen.applications();
-  coulomb_check const check(rows, F);
   index const nodes = F.size();
+  Eigen::SparseMatrix<S> const B = stacked_constraints(c);
+  vector_type closed = vector_type::Zero(B.rows());  // B u where gaps are closed and nothing slides
+  closed.head(nodes) = c.d;
+  if (w.size() > 0) closed.tail(w.size()) = w;
   vector_type λ(nodes);
 
   auto const& state = run.state();
@@ -116,7 +83,7 @@ template <class Friction, class S, class Certificate>
   index next_newton = 1;
   S share = tolerance / S(2), best = std::numeric_limits<S>::infinity(), nearest = best;
   index since = 0, round = 0, idle = 0;
-  // As in run_floating_to_certified.
+  // As in run_floating.
   auto const size = [&] { return springs.size() > S(0) ? springs.size() : run.size(); };
   auto const goal = [&] { return S(share * size()); };
   auto const use_bounds_of_x = [&] {
@@ -128,7 +95,9 @@ template <class Friction, class S, class Certificate>
     result.λ = run.problem().multipliers(state.x);
     vector_type const g = F.cwiseProduct(result.λ.head(nodes).cwiseMax(S(0)));
     slant::project(feasible_set(law, nodes, g), result.λ, result.λ);
-    result.error = {check(result.λ, result.u), frozen(state.x)};
+    result.error.law =
+        violation_of_coulomb<vector_type>(c.f, B, closed - B * result.u, F, result.λ, result.u);
+    result.error.frozen = frozen(state.x);
     if (run.problem().offset().size() > 0) result.error.frozen.size = run.size();
     if (!springs.empty()) {
       springs.measure(result.u, goal());
@@ -140,10 +109,10 @@ template <class Friction, class S, class Certificate>
     if (!springs.empty()) {
       springs.measure(run.displacement(), goal());
       springs.move();
-      run.set_load(springs.load(rows.load()));
+      run.set_load(springs.load(c.f));
     }
     use_bounds_of_x();
-    ++result.bounds;
+    ++bounds;
     run.step(goal());
     if (state.status == status::running) {
       S const first = state.energy_estimate;
@@ -152,45 +121,42 @@ template <class Friction, class S, class Certificate>
       for (index k = 1; k < steps_for_bounds && state.status == status::running; ++k) {
         run.step(std::max<S>(goal() / S(8), first / S(10)));
       }
-      if (state.status == status::converged && result.bounds >= next_newton) {
+      if (state.status == status::converged && bounds >= next_newton) {
         if (!newton) newton.emplace(run.problem(), run.qp(), run.levels(), F, state.step_length);
         x = state.x;
         bool const arrived =
             newton->run(x, state.r, state.unit, state.roughly, goal(), newton_steps, by_newton);
-        if (!arrived) next_newton = 2 * result.bounds;
+        if (!arrived) next_newton = 2 * bounds;
         if (x != state.x) run.go_to(x);
       }
       bool const ends =
-          state.status == status::breakdown || since >= patience || result.bounds >= most;
+          state.status == status::breakdown || since >= patience || bounds >= o.outer_steps;
       if (!ends) continue;
-      result.status = state.status == status::breakdown ? status::breakdown
-                      : since >= patience               ? status::stalled
-                                                        : status::iteration_limit;
-      result.reason = state.status == status::breakdown ? state.reason()
-                      : since < patience                ? no_more
-                      : !springs.empty() && !(springs.contraction() < S(0.5))
-                          ? "contact hardly holds bodies without supports"
-                          : "neither successive slip bounds nor Newton's steps get nearer";
+      how = state.status == status::breakdown ? status::breakdown
+            : since >= patience               ? status::stalled
+                                              : status::iteration_limit;
+      why = state.status == status::breakdown ? state.reason()
+            : since < patience                ? no_more
+            : !springs.empty() && !(springs.contraction() < S(0.5))
+                ? "contact hardly holds bodies without supports"
+                : "neither successive slip bounds nor Newton's steps get nearer";
       use_bounds_of_x();
-      if (judge() <= tolerance) result.status = status::converged;
+      if (judge() <= tolerance) how = status::converged;
       break;
     }
     // With the bounds of x itself x needs no step.
     S const error = judge();
-    if (error <= tolerance) {
-      result.status = status::converged;
-      break;
-    }
+    if (error <= tolerance) break;
     // The bound of a problem may be loose where that of the next is not, and none at all far away.
     bool const is_known = slant::detail::is_finite(error);
     idle = error < best / S(2) || !is_known ? 0 : idle + 1;
     bool const may_go_on = state.status == status::converged && idle < 2 &&
                            state.reduced_gradient_norm > S(0) && ++round < rounds;
-    if (!may_go_on || result.bounds >= most) {
-      result.status = may_go_on                           ? status::iteration_limit
-                      : state.status == status::converged ? status::stalled
-                                                          : state.status;
-      result.reason = may_go_on ? no_more : state.reason();
+    if (!may_go_on || bounds >= o.outer_steps) {
+      how = may_go_on                           ? status::iteration_limit
+            : state.status == status::converged ? status::stalled
+                                                : state.status;
+      why = may_go_on ? no_more : state.reason();
       break;
     }
     best = std::min<S>(best, error);
@@ -200,27 +166,27 @@ template <class Friction, class S, class Certificate>
     if (stays) share = std::min<S>(share, state.energy_estimate / size());
     share *= std::clamp<S>(tolerance / error / S(2), S(1e-3), S(0.3));
   }
-  if (newton) result.newton_steps = newton->steps() - newton_before;
+  index const steps = newton ? newton->steps() - newton_before : 0;
+  result.steps = bounds + steps;
+  result.method = steps > 0 ? "slip bounds and Newton" : "successive slip bounds";
+  conclude(result, how == status::converged, how, o.tolerance, "; " + why);
   result.work = state.work;
   result.work += by_newton;
   result.work.operator_applications += frozen.applications() + springs.products() - before;
   return result;
 }
 
-/// The run from nothing, of c without its slip bounds; `floating` bodies that contact holds. Throws
+/// The run from nothing, of c with slip bounds of 0; `floating` bodies that contact holds. Throws
 /// bad_input where K is found not to be definite or does not fit the nodes.
 template <class Friction, class S>
-[[nodiscard]] iterated_coulomb_result<S> iterated_coulomb(
-    Friction law, Eigen::SparseMatrix<S> const& K, data<S> c, Eigen::VectorX<S> const& F,
-    node_layout<S> const& layout, free_motions<S> const& floating, multigrid_options const& levels,
-    S const& tolerance, index most) {
-  c.g = Eigen::VectorX<S>::Zero(c.nodes());
-  moving_springs<S> springs(K, floating, layout.dimension());
-  primal_run<S> run(springs.held(), c, layout, levels, steps_for_problems(most));
+[[nodiscard]] certified_coulomb_result<Eigen::VectorX<S>> iterated_coulomb(
+    Friction law, Eigen::SparseMatrix<S> const& K, data<S> const& c, Eigen::VectorX<S> const& F,
+    free_motions<S> const& floating, certified_coulomb_options<S> const& o) {
+  moving_springs<S> springs(K, floating, o.layout.dimension());
+  primal_run<S> run(springs.held(), c, o.layout, o.multigrid, steps_for_problems(o.outer_steps));
   energy_certificate frozen(run.qp(), run.levels());
   std::optional<alart_curnier_steps<S>> newton;
-  return run_coulomb_to_certified(law, run, newton, springs, frozen, checked_rows<S>(c, {}), F,
-                                  tolerance, most);
+  return run_coulomb_to_certified<Friction, S>(law, run, newton, springs, frozen, c, {}, F, o);
 }
 
 }  // namespace slant::contact::detail

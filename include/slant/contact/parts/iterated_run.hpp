@@ -175,21 +175,17 @@ class primal_run {
     problem_.pressures(state_.x, state_.r, state_.step_length * state_.unit, λ);
     λ *= state_.unit;
   }
-  /// The displacements, and the forces of the contacts in Λ.
   [[nodiscard]] vector_type displacement() const { return problem_.displacement(state_.x); }
-  template <class C>
-  [[nodiscard]] vector_type multipliers(C const& Λ) const {
-    vector_type λ = problem_.multipliers(state_.x);
-    slant::project(Λ, λ, λ);
-    return λ;
-  }
   /// Goes on from another x. One product.
   void go_to(vector_type const& x) {
     state_.x = x;
-    method(S(0)).resume(state_);
+    resume();
   }
   /// Goes on from x with another load.
-  void set_load(vector_type const& f);
+  void set_load(vector_type const& f) {
+    problem_.set_load(f);
+    resume();
+  }
   /// Goes on from x with other slip bounds.
   void set_slip_bounds(vector_type const& g);
   /// change(problem, x) of its data and of the point, from which steps begin anew. One product.
@@ -198,7 +194,7 @@ class primal_run {
     change(problem_, state_.x);
     state_.iteration = 0;
     state_.work = {};
-    method(S(0)).resume(state_);
+    resume();
   }
 
  private:
@@ -208,7 +204,8 @@ class primal_run {
     o.energy_goal = std::max<S>(goal, std::numeric_limits<S>::min());
     return method_type(qp_, M_, o);
   }
-  [[nodiscard]] state_type begin(index tangents, multigrid_options const& o, vector_type const& w);
+  [[nodiscard]] state_type begin(multigrid_options const& o, vector_type const& w);
+  void resume();
 
   primal<S> problem_;
   matrix_type motions_;
@@ -227,19 +224,17 @@ primal_run<S>::primal_run(Eigen::SparseMatrix<S> const& K, data<S> const& c,
       M_(problem_.levels(motions_, o)),
       qp_(problem_.qp()),
       most_(most),
-      state_(begin(c.tangents(), o, w)) {}
+      state_(begin(o, w)) {}
 
 template <class S>
-auto primal_run<S>::begin(index tangents, multigrid_options const& o, vector_type const& w)
-    -> state_type {
+auto primal_run<S>::begin(multigrid_options const& o, vector_type const& w) -> state_type {
   if (w.size() > 0) problem_.set_positions(w);
   // What level 1 stands for: rigid motions of aggregates, or translations.
   index const size = M_.node_size(), nodes = qp_.b().size() / size;
   matrix_type const motions =
       o.prolongations.empty() ? motions_
                               : matrix_type(matrix_type::Identity(size, size).replicate(nodes, 1));
-  nested_start<S> const coarse(qp_.b(), problem_.surface(), tangents, M_, motions,
-                               problem_.turning(), o);
+  nested_start<S> const coarse(qp_.b(), problem_.surface(), M_, motions, problem_.turning());
   if (!coarse.found()) return method(S(0)).start(problem_.zero());
   return method(S(0)).start_on_face([&](S const& ρ) { return coarse.at(ρ); });
 }
@@ -254,8 +249,7 @@ void primal_run<S>::step(S const& goal) {
 }
 
 template <class S>
-void primal_run<S>::set_load(vector_type const& f) {
-  problem_.set_load(f);
+void primal_run<S>::resume() {
   method(S(0)).resume(state_);
 }
 
@@ -283,21 +277,27 @@ void tell_progress(solve_options<S> const& o, State const& state) {
   if (o.progress) o.progress({state.iteration, relative_gradient<S>(state)});
 }
 
-/// Steps until the certificate agrees, and what has come of them but for the choice of a route.
-template <class Friction, class S, class Certificate>
-void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate, data<S> const& c,
-                      solve_options<S> const& o, solution<S>& result) {
+/// Steps to an energy error of goal().
+template <class S, class Goal>
+void run_to_goal(primal_run<S>& run, solve_options<S> const& o, Goal const& goal) {
   auto const& state = run.state();
-  index const before = certificate.applications();
+  tell_progress(o, state);
+  while (state.status == status::running) {
+    run.step(goal());
+    if (state.status != status::iteration_limit) tell_progress(o, state);
+  }
+}
+
+/// Steps until the certificate agrees.
+template <class S, class Certificate>
+void run_held(primal_run<S>& run, Certificate& certificate, solve_options<S> const& o,
+              solution<S>& result) {
+  auto const& state = run.state();
   S share = o.tolerance / S(2), best = std::numeric_limits<S>::infinity();
   constexpr index rounds = 12;
   index idle = 0;
   for (index round = 0;; ++round) {
-    tell_progress(o, state);
-    while (state.status == status::running) {
-      run.step(share * run.size());
-      if (state.status != status::iteration_limit) tell_progress(o, state);
-    }
+    run_to_goal(run, o, [&] { return S(share * run.size()); });
     result.error = certificate(state.x);
     if (run.problem().offset().size() > 0) result.error.size = run.size();
     S const error = result.error.relative();
@@ -308,7 +308,7 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
                          state.reduced_gradient_norm > S(0) && round < rounds;
     if (is_enough || !goes_on) {
       conclude(result, is_enough, state.status, o.tolerance, "; " + state.reason());
-      break;
+      return;
     }
     best = std::min<S>(best, error);
     // Below the estimate at x, or the next step would stay there.
@@ -316,11 +316,6 @@ void run_to_certified(Friction law, primal_run<S>& run, Certificate& certificate
             std::clamp<S>(o.tolerance / error / S(2), S(1e-3), S(0.3));
     run.go_on();
   }
-  result.u = run.displacement();
-  result.multipliers = run.multipliers(feasible_set(law, c));
-  result.iterations = state.iteration;
-  result.work = state.work;
-  result.work.operator_applications += certificate.applications() - before;
 }
 
 // --- bodies that float ---------------------------------------------------------------------------
@@ -444,13 +439,11 @@ class moving_springs {
   index products_ = 0;
 };
 
-/// As run_to_certified, where bodies float.
-template <class Friction, class S, class Certificate>
-void run_floating_to_certified(Friction law, primal_run<S>& run, moving_springs<S>& springs,
-                               Certificate& certificate, data<S> const& c,
-                               solve_options<S> const& o, solution<S>& result) {
+/// As run_held, where bodies float.
+template <class S, class Certificate>
+void run_floating(primal_run<S>& run, moving_springs<S>& springs, Certificate& certificate,
+                  data<S> const& c, solve_options<S> const& o, solution<S>& result) {
   constexpr index rounds = 40, patience = 12;
-  index const before = certificate.applications();
   auto const& state = run.state();
   S const share =
       std::clamp<S>(o.tolerance / S(8), S(1e3) * std::numeric_limits<S>::epsilon(), S(1e-4));
@@ -460,11 +453,7 @@ void run_floating_to_certified(Friction law, primal_run<S>& run, moving_springs<
   };
   result.springs = 0;
   for (index slow = 0;;) {
-    tell_progress(o, state);
-    while (state.status == status::running) {
-      run.step(goal());
-      if (state.status != status::iteration_limit) tell_progress(o, state);
-    }
+    run_to_goal(run, o, goal);
     ++result.springs;
     // Far from where bodies began rounding may allow no more; the next problem is nearer.
     bool const ended = state.status != status::converged && state.status != status::stalled;
@@ -483,13 +472,28 @@ void run_floating_to_certified(Friction law, primal_run<S>& run, moving_springs<
     if (is_enough || ended || slow > patience || result.springs >= rounds) {
       conclude(result, is_enough, state.status, o.tolerance,
                ended ? "; " + state.reason() : "; contact hardly holds bodies without supports");
-      break;
+      return;
     }
     springs.move();
     run.set_load(springs.load(c.f));
   }
+}
+
+/// Steps until the certificate agrees, and what has come of them but for the choice of a route.
+template <class Friction, class S, class Certificate>
+void run_to_certified(Friction law, primal_run<S>& run, moving_springs<S>& springs,
+                      Certificate& certificate, data<S> const& c, solve_options<S> const& o,
+                      solution<S>& result) {
+  index const before = certificate.applications();
+  if (springs.empty()) {
+    run_held(run, certificate, o, result);
+  } else {
+    run_floating(run, springs, certificate, c, o, result);
+  }
+  auto const& state = run.state();
   result.u = run.displacement();
-  result.multipliers = run.multipliers(feasible_set(law, c));
+  result.multipliers = run.problem().multipliers(state.x);
+  slant::project(feasible_set(law, c), result.multipliers, result.multipliers);
   result.iterations = state.iteration;
   result.work = state.work;
   result.work.operator_applications += certificate.applications() + springs.products() - before;
@@ -504,13 +508,9 @@ template <class Friction, class S>
   solution<S> result;
   primal_run<S> run(springs.held(), c, o.layout, o.multigrid, o.max_steps);
   result.factorization = run.levels().description();
+  if (!springs.empty()) result.motions = floating;
   energy_certificate certificate(run.qp(), run.levels());
-  if (springs.empty()) {
-    run_to_certified(law, run, certificate, c, o, result);
-  } else {
-    result.motions = floating;
-    run_floating_to_certified(law, run, springs, certificate, c, o, result);
-  }
+  run_to_certified(law, run, springs, certificate, c, o, result);
   return result;
 }
 

@@ -57,16 +57,15 @@ class nested_start {
   /// Solves the coarse problem of min ½ vᵀK v − fᵀv + φ(v), v = G u, with the multigrid M of these
   /// candidates of the near kernel in u; without rows G is the identity. Nothing if there is none
   /// worth it.
-  nested_start(vector_type const& f, surface_function<S> const& φ, index tangents,
-               slant::multigrid<S> const& M, matrix_type const& candidates, rows_type const& G,
-               multigrid_options const& o)
-      : φ_(&φ), tangents_(tangents) {
+  nested_start(vector_type const& f, surface_function<S> const& φ, slant::multigrid<S> const& M,
+               matrix_type const& candidates, rows_type const& G)
+      : φ_(&φ), tangents_(φ.tangents()) {
     aggregation const& a = M.aggregates();
     if (a.count == 0 || f.size() < smallest || candidates.cols() == 0) return;
     if (M.sizes().size() == 2 && !M.factors_last_level()) return;  // there is no level below
     matrix_type R = M.coarse_kernel();
     width_ = R.cols();
-    if (R.rows() != a.count * width_ || width_ < 1 + tangents) return;
+    if (R.rows() != a.count * width_ || width_ < 1 + tangents_) return;
     of_ = a.of;
     node_size_ = M.node_size();
     choose_frames(candidates, G, R, a.count);
@@ -79,14 +78,14 @@ class nested_start {
       mix(K.rows(), E, inverse);
       g = vector_type(E.transpose() * g);
     }
-    if (has_pairs()) {
+    if (has_pairs_) {
       K = congruent(K, E);
     } else {
       turn(K);
     }
-    surface_function<S> const surface(K.rows(), tangents, list_);
+    surface_function<S> const surface(K.rows(), tangents_, list_);
     try {
-      solve(K, g, surface, M, R, inverse, o);
+      solve(K, g, surface, M, R, inverse);
       if (!frames_.empty()) coarse_ = vector_type(E * coarse_);
       displacement_ = M.prolonged(coarse_);
       found_ = displacement_.allFinite();
@@ -106,7 +105,16 @@ class nested_start {
     for (contact const& c : φ_->contacts()) {
       int const owner = of_[static_cast<std::size_t>(c.p / node_size_)];
       int const k = owner < 0 ? -1 : number_[static_cast<std::size_t>(owner)];
-      hold_normal(c, k, beyond, z[c.p]);
+      S const l = c.gap.lower(), h = c.gap.upper();
+      bool const has_l = slant::detail::is_finite(l), has_h = slant::detail::is_finite(h);
+      S& normal = z[c.p];
+      if (k < 0 || !touches_[static_cast<std::size_t>(k)] || (!has_l && !has_h)) {
+        normal = std::clamp<S>(normal, l, h);
+      } else if (has_l && (!has_h || normal - l < h - normal)) {
+        normal = l - beyond;
+      } else {
+        normal = h + beyond;
+      }
       if (tangents_ == 0) continue;
       S square(0);
       auto const at = [&](index j) -> S& { return z[c.q + j * c.stride]; };
@@ -131,19 +139,6 @@ class nested_start {
     matrix_type E, inverse;
     std::map<index, matrix_type> others{};
   };
-
-  void hold_normal(contact const& c, int k, S const& beyond, S& z) const {
-    bool const touches = k >= 0 && touches_[static_cast<std::size_t>(k)];
-    S const l = c.gap.lower(), h = c.gap.upper();
-    bool const below =
-        slant::detail::is_finite(l) && (!slant::detail::is_finite(h) || z - l < h - z);
-    bool const bounded = slant::detail::is_finite(l) || slant::detail::is_finite(h);
-    if (touches && bounded) {
-      z = below ? S(l - beyond) : S(h + beyond);
-    } else {
-      z = std::clamp<S>(z, l, h);
-    }
-  }
 
   /// The frames of aggregates with contacts, and their contacts.
   void choose_frames(matrix_type const& B, rows_type const& G, matrix_type const& R, index count) {
@@ -192,6 +187,7 @@ class nested_start {
         auto E = frame_of(T);
         if (!E) continue;
         E->others = std::move(mean[g]);
+        has_pairs_ = has_pairs_ || !E->others.empty();
         c.p = i * width_;
         c.q = c.p + 1;
         c.stride = 1;
@@ -254,11 +250,6 @@ class nested_start {
                           .solve(matrix_type(Q.leftCols(m).transpose()))
                           .transpose();
     return f;
-  }
-
-  [[nodiscard]] bool has_pairs() const {
-    return std::any_of(frames_.begin(), frames_.end(),
-                       [](auto const& f) { return !f.second.others.empty(); });
   }
 
   /// Whether contacts are with aggregates that have contacts of their own, as in the middle of a
@@ -342,12 +333,12 @@ class nested_start {
 
   void solve(sparse_type const& K, vector_type const& f, surface_function<S> const& surface,
              slant::multigrid<S> const& finer, matrix_type const& candidates,
-             rows_type const& inverse, multigrid_options const& o) {
+             rows_type const& inverse) {
     auto const M = finer.coarser(K, inverse);
     separable_qp const qp{slant::matrix<self_adjoint, positive_definite>(K), f, surface};
     symmetric_newton_options<S> newton;
     newton.energy_goal = std::numeric_limits<S>::min();
-    nested_start const coarser(f, surface, tangents_, M, candidates, inverse, o);
+    nested_start const coarser(f, surface, M, candidates, inverse);
     auto const method = [&] { return envelope_newton{qp, M, newton}; };
     auto state = coarser.found() ? method().start_on_face([&](S const& ρ) { return coarser.at(ρ); })
                                  : method().start(vector_type::Zero(f.size()));
@@ -378,7 +369,7 @@ class nested_start {
   std::vector<std::pair<index, frame>> frames_;
   std::vector<bool> touches_, sticks_;
   vector_type coarse_, displacement_;
-  bool found_ = false;
+  bool has_pairs_ = false, found_ = false;
 };
 
 }  // namespace slant::contact::detail

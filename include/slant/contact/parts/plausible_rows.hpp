@@ -62,15 +62,33 @@ struct plausibility_warning {
 
 namespace detail {
 
+/// "row 6 of T".
+struct row_name {
+  index i;
+  char const* of;
+};
+
+/// A part of a sentence.
+template <class T>
+[[nodiscard, gnu::cold]] std::string text_of(T const& number) {
+  return slant::detail::show(number);
+}
+[[nodiscard, gnu::cold]] inline std::string text_of(char const* words) {
+  return words;
+}
+[[nodiscard, gnu::cold]] inline std::string text_of(row_name const& row) {
+  return "row " + slant::detail::show(row.i) + " of " + row.of;
+}
+
 /// One warning for all places of one kind: a file of 10⁵ wrong rows is one mistake.
 class suspects {
  public:
-  /// The sentence is that of the first one.
-  template <class Sentence>
-  void add(index at, Sentence sentence) {
+  /// The sentence, part by part, is that of the first one.
+  template <class... Part>
+  void add(index at, Part const&... sentence) {
     if (count_++ > 0) return;
     first_ = at;
-    text_ = sentence();
+    text_ = (std::string() + ... + text_of(sentence));
   }
   /// "…, as in 3 other rows of N. Mend it."
   void report(suspicion kind, std::string rows, std::string_view others, std::string_view mend,
@@ -284,15 +302,11 @@ struct contact_rows {
 
 using warnings = std::vector<plausibility_warning>;
 
-/// "row 6 of T".
-[[nodiscard, gnu::cold]] inline std::string row_text(index i, char const* of) {
-  return "row " + slant::detail::show(i) + " of " + of;
-}
 /// "rows 6 and 7 of T" of a contact node.
 template <class S>
 [[nodiscard, gnu::cold]] std::string tangents_text(contact_rows<S> const& rows, index i) {
   using slant::detail::show;
-  if (rows.tangents == 1) return row_text(i, "T");
+  if (rows.tangents == 1) return text_of(row_name{i, "T"});
   return "rows " + show(2 * i) + " and " + show(2 * i + 1) + " of T";
 }
 
@@ -386,12 +400,12 @@ bool find_grouped_tangents(contact_rows<S> const& rows, warnings& found) {
   }
   if (grouped <= interleaved || 2 * grouped <= all) return false;
   using slant::detail::show;
-  found.push_back(
-      {suspicion::grouped_tangents, "contact nodes", first, 1,
-       "T has all rows of the first tangent and then all of the second: " + row_text(first, "N") +
-           " touches the same nodes as rows " + show(first) + " and " + show(rows.m + first) +
-           " of T, not as rows " + show(2 * first) + " and " + show(2 * first + 1) +
-           ". Put them node by node: rows 2i and 2i+1 of T are those of node i"});
+  found.push_back({suspicion::grouped_tangents, "contact nodes", first, 1,
+                   "T has all rows of the first tangent and then all of the second: " +
+                       text_of(row_name{first, "N"}) + " touches the same nodes as rows " +
+                       show(first) + " and " + show(rows.m + first) + " of T, not as rows " +
+                       show(2 * first) + " and " + show(2 * first + 1) +
+                       ". Put them node by node: rows 2i and 2i+1 of T are those of node i"});
   return true;
 }
 
@@ -411,10 +425,8 @@ void find_foreign_rows(contact_rows<S> const& rows, warnings& found) {
     }
     auto const other = owner.find(rows.nodes_of_N(i));
     if (own || empty || other == owner.end()) continue;
-    s.add(i, [&] {
-      return row_text(i, "N") + " touches other nodes of the body than " + tangents_text(rows, i) +
-             ", namely those of " + tangents_text(rows, other->second / rows.tangents);
-    });
+    s.add(i, row_name{i, "N"}, " touches other nodes of the body than ", tangents_text(rows, i),
+          ", namely those of ", tangents_text(rows, other->second / rows.tangents));
   }
   s.report(suspicion::different_nodes, "contact nodes", "rows of N",
            "Put the rows of N, T, d and g in one order of the contact nodes", found);
@@ -426,18 +438,14 @@ void find_zero_rows(data<S> const& c, contact_rows<S> const& rows, warnings& fou
   index const usual = rows.usual_size();
   for (index i = 0; i < rows.m; ++i) {
     if (rows.N[i].empty() && slant::detail::is_finite(c.d[i])) {
-      of_N.add(i, [&] { return row_text(i, "N") + " is zero: this contact node never touches"; });
+      of_N.add(i, row_name{i, "N"}, " is zero: this contact node never touches");
     }
     // Where a direction is prescribed its unknown is missing.
     if (rows.N[i].empty() || !is_complete(rows, i, usual)) continue;
     for (index k = 0; k < rows.tangents; ++k) {
       index const r = rows.tangent(i, k);
-      if (rows.T[r].empty()) {
-        of_T.add(r, [&] {
-          return row_text(r, "T") + " is zero: contact node " + slant::detail::show(i) +
-                 " slides there without friction";
-        });
-      }
+      if (!rows.T[r].empty()) continue;
+      of_T.add(r, row_name{r, "T"}, " is zero: contact node ", i, " slides there without friction");
     }
   }
   of_N.report(suspicion::zero_row, "N", "rows of N",
@@ -474,9 +482,7 @@ void find_duplicate_rows(data<S> const& c, contact_rows<S> const& rows, warnings
       rows.N, [&](index i) { return !slant::detail::is_finite(c.d[i]); },
       [&](index i, index j, S const& cosine) {
         if (!(cosine >= nearly)) return false;
-        of_N.add(i, [&] {
-          return row_text(i, "N") + " is a positive multiple of row " + slant::detail::show(j);
-        });
+        of_N.add(i, row_name{i, "N"}, " is a positive multiple of row ", j);
         return true;
       });
   // Two sides of a corner share a tangent; a row of T without its own node is a mistake.
@@ -491,10 +497,7 @@ void find_duplicate_rows(data<S> const& c, contact_rows<S> const& rows, warnings
         bool const first = rows.nodes_of_N(i) == rows.nodes_of_T(r);
         index const wrong = first ? s : r, right = first ? r : s;
         if (rows.nodes_of_N(right / rows.tangents) != rows.nodes_of_T(right)) return false;
-        of_T.add(wrong, [&] {
-          return row_text(wrong, "T") + " repeats row " + slant::detail::show(right) +
-                 " of another contact node";
-        });
+        of_T.add(wrong, row_name{wrong, "T"}, " repeats row ", right, " of another contact node");
         return true;
       });
   of_N.report(suspicion::duplicate_row, "N", "rows of N",
@@ -511,21 +514,19 @@ void find_oblique_frames(contact_rows<S> const& rows, warnings& found) {
   for (index i = 0; i < rows.m && rows.tangents > 0; ++i) {
     if (!is_complete(rows, i, usual)) continue;
     bool noted = false;
-    auto const compare = [&](auto const& a, auto const& b, auto name_a, auto name_b) {
+    auto const compare = [&](auto const& a, auto const& b, row_name name_a, row_name name_b) {
       if (noted || a.empty() || b.empty()) return;
       S const cosine = row_entries<S>::cosine(a, b);
       // Directions may have been written with four digits.
       if (!(abs(cosine) > S(1e-3))) return;
       noted = true;
-      s.add(i, [&] {
-        return name_a + " and " + name_b + ", of contact node " + slant::detail::show(i) +
-               ", are not orthogonal: their cosine is " + slant::detail::show(cosine);
-      });
+      s.add(i, name_a, " and ", name_b, ", of contact node ", i,
+            ", are not orthogonal: their cosine is ", cosine);
     };
     for (index k = 0; k < rows.tangents; ++k) {
       index const r = rows.tangent(i, k);
-      compare(rows.N[i], rows.T[r], row_text(i, "N"), row_text(r, "T"));
-      if (k > 0) compare(rows.T[r - 1], rows.T[r], row_text(r - 1, "T"), row_text(r, "T"));
+      compare(rows.N[i], rows.T[r], {i, "N"}, {r, "T"});
+      if (k > 0) compare(rows.T[r - 1], rows.T[r], {r - 1, "T"}, {r, "T"});
     }
   }
   s.report(suspicion::oblique_frame, "contact nodes", "contact nodes",
@@ -575,10 +576,8 @@ void find_other_units(contact_rows<S> const& rows, warnings& found) {
   if (rows.tangents == 0 && !lengths.empty()) {
     S const middle = median(lengths);
     find_outliers(lengths, middle, S(100), [&](std::size_t j) {
-      s.add(of_length[j], [&] {
-        return row_text(of_length[j], "N") + " is " + brief(lengths[j] / middle) +
-               " times as long as most others";
-      });
+      s.add(of_length[j], row_name{of_length[j], "N"}, " is ", brief(lengths[j] / middle),
+            " times as long as most others");
     });
     s.report(suspicion::other_units, "N", "rows of N", mend, found);
   }
@@ -591,10 +590,8 @@ void find_other_units(contact_rows<S> const& rows, warnings& found) {
   }
   find_outliers(ratios, middle, S(8), [&](std::size_t j) {
     index const r = of_ratio[j];
-    s.add(r, [&] {
-      return row_text(r, "T") + " is " + brief(ratios[j]) + " times as long as " +
-             row_text(r / rows.tangents, "N");
-    });
+    s.add(r, row_name{r, "T"}, " is ", brief(ratios[j]), " times as long as ",
+          row_name{r / rows.tangents, "N"});
   });
   s.report(suspicion::other_units, "T", "rows of T", mend, found);
 }

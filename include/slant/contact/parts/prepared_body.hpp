@@ -58,26 +58,6 @@ template <class S>
   return m;
 }
 
-/// Takes U of these unknowns, if the factorisation takes the block of K.
-template <class S, class F, class Factor>
-[[nodiscard]] bool take_inside(Eigen::SparseMatrix<S> const& k, std::vector<index> const& number,
-                               std::vector<index> const& body, std::vector<index> const& inside,
-                               Eigen::SparseMatrix<S> const& block, Factor const& factor,
-                               prepared_body<S, F>& result) {
-  ++result.attempts;
-  try {
-    auto factors_of_block = factor(block);
-    std::vector<index> rows;
-    for (index const i : inside) rows.push_back(number[std::size_t(i)]);
-    result.inside.emplace(slant::detail::conjugate_part<S, F>{
-        slant::detail::columns_of_identity<S>(index(body.size()), rows),
-        columns_of_body(k, number, body, inside, false), std::move(factors_of_block)});
-    return true;
-  } catch (bad_input const&) {
-    return false;
-  }
-}
-
 /// Tries U = what no row touches, then without fixing rows, then none.
 template <class F, class S, class V, class Factor>
 [[nodiscard]] prepared_body<S, F> prepare_body(Eigen::SparseMatrix<S> const& k, V const& f,
@@ -93,8 +73,21 @@ template <class F, class S, class V, class Factor>
   bool const free = inside.size() == body.size();
   if (inside.empty()) return result;
   Eigen::SparseMatrix<S> block = columns_of_body(k, number, body, inside, true);
-  if (!take_inside(k, number, body, inside, block, factor, result)) {
+  auto const take_inside = [&] {
+    ++result.attempts;
+    auto factors = factor(block);
+    std::vector<index> rows;
+    for (index const i : inside) rows.push_back(number[std::size_t(i)]);
+    result.inside.emplace(slant::detail::conjugate_part<S, F>{
+        slant::detail::columns_of_identity<S>(index(body.size()), rows),
+        columns_of_body(k, number, body, inside, false), std::move(factors)});
+  };
+  try {
+    take_inside();
+  } catch (bad_input const&) {
     result.fixed = true;
+  }
+  if (result.fixed) {
     try {
       ++result.attempts;
       std::vector<index> const fixing = fixing_rows(computed_kernel(block));
@@ -103,7 +96,7 @@ template <class F, class S, class V, class Factor>
       }
       if (inside.empty() || fixing.empty()) return result;
       block = columns_of_body(k, number, body, inside, true);
-      (void)take_inside(k, number, body, inside, block, factor, result);
+      take_inside();
     } catch (bad_input const&) {  // no kernel that can be told from the rest
     }
   } else if (free) {

@@ -45,25 +45,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace slant::contact::detail {
-
-/// The unknowns that hold all bodies if they are fixed.
-template <class S>
-[[nodiscard]] std::vector<index> fixing_unknowns(free_motions<S> const& motions) {
-  std::vector<index> list;
-  for (auto const& body : motions.free) {
-    for (index const row : fixing_rows(body.motions)) {
-      list.push_back(body.unknowns[std::size_t(row)]);
-    }
-  }
-  return list;
-}
 
 /// √(vᵀK v), from the products with K.
 template <class S, class V>
@@ -77,42 +64,24 @@ template <class S, class V>
   return square > S(0) ? S(size * sqrt(square) * sqrt(unit_of_K)) : S(0);
 }
 
-/// A problem of bodies that supports or springs hold, whatever the law of friction.
-template <class S>
-class supported_problem {
- public:
-  using vector_type = Eigen::VectorX<S>;
-
-  supported_problem() = default;
-  supported_problem(supported_problem const&) = delete;
-  supported_problem& operator=(supported_problem const&) = delete;
-  virtual ~supported_problem() = default;
-
-  /// New data, slips from w; see certified_run.
-  virtual void reload(vector_type const& λ, vector_type const& w, S const& tolerance,
-                      index max_steps) = 0;
-  [[nodiscard]] virtual solution<S> solve() = 0;
-};
-
-/// The method at the top of this file; make(K + D, data, options) makes the problem of a step. One
-/// type for all laws of friction.
-template <class S>
+/// The method at the top of this file. Run(law, K + D, data, options) is the problem of a step, for
+/// bodies that are held; its reload(λ, w, tolerance, most steps) takes new data, and slips from w.
+template <class Run>
 class spring_supports {
  public:
+  using S = typename Run::scalar;
   using vector_type = Eigen::VectorX<S>;
   using sparse_type = Eigen::SparseMatrix<S>;
-  using maker = std::function<std::unique_ptr<supported_problem<S>>(
-      sparse_type const&, data<S> const&, solve_options<S> const&)>;
+  using friction_type = typename Run::friction_type;
 
-  spring_supports(sparse_type const& K, data<S> const& c, solve_options<S> const& o,
-                  free_motions<S> motions, maker make)
-      : K_(&K),
-        original_(&c),
-        data_(c),
-        options_(o),
-        make_(std::move(make)),
-        R_(kernel_of(motions, K.rows())) {
-    places_ = fixing_unknowns(motions);
+  spring_supports(friction_type law, sparse_type const& K, data<S> const& c,
+                  solve_options<S> const& o, free_motions<S> motions)
+      : K_(&K), original_(&c), data_(c), options_(o), law_(law), R_(kernel_of(motions, K.rows())) {
+    for (auto const& body : motions.free) {
+      for (index const row : fixing_rows(body.motions)) {
+        places_.push_back(body.unknowns[std::size_t(row)]);
+      }
+    }
     sum_.motions = std::move(motions);
     origin_.setZero(K.rows());
     rest_.setZero(K.rows());
@@ -193,7 +162,7 @@ class spring_supports {
     S goal = is_soft ? S(1e-3) : S(S(0.3) * options_.tolerance);
     S tolerance = std::max<S>(goal, S(1e-3));
     int const steps = is_soft ? 3 : 100;
-    std::unique_ptr<supported_problem<S>> problem;
+    std::optional<Run> problem;
     set_springs(σ);
     for (int step = 0, slow = 0; step < steps && slow < 4; ++step) {
       index const left = options_.max_steps - sum_.iterations;
@@ -205,7 +174,7 @@ class spring_supports {
         o.max_steps = budget;
         if (λ_.size() > 0) o.start = λ_;
         data_.d = original_->d;
-        problem = make_(supported_, data_, o);
+        problem.emplace(law_, supported_, data_, o);
         ++sum_.work.factorizations;
       }
       if (sum_.springs > 0 || is_moved_) {
@@ -376,9 +345,9 @@ class spring_supports {
   data<S> const* original_;
   data<S> data_;  // with the forces of the springs
   solve_options<S> options_;
-  maker make_;
+  friction_type law_;
   sparse_type R_, supported_{};
-  std::vector<index> places_{};
+  std::vector<index> places_{};    // unknowns that hold all bodies if they are fixed
   vector_type D_{};                // diagonal, 0 but at the places
   vector_type origin_{}, rest_{};  // of the anchor
   vector_type positions_{}, λ_{};

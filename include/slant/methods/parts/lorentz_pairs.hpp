@@ -140,11 +140,12 @@ class lorentz_pairs {
       S const a = sqrt(S(-block.inequality(here)(0)));
       S const b = root_y_[at.number];
       root_p_[at.number] = a;
-      part const p = over(block.lorentz_point(here), a);
-      part const y = over(of(at, y_), b);
+      part const p = detail::over(block.lorentz_point(here), a);
+      part const y = detail::over(of(at, y_), b);
       S const γ = sqrt((S(1) + algebra::pairing(p, y)) / S(2));
-      detail::put_entries(over(detail::combination(S(1), p, S(1), algebra::reflected(y)), S(2) * γ),
-                          &frame_[at.first]);
+      detail::put_entries(
+          detail::over(detail::combination(S(1), p, S(1), algebra::reflected(y)), S(2) * γ),
+          &frame_[at.first]);
       S const size = sqrt(a) * sqrt(b), sum = p[0] + y[0] + S(2) * γ;
       part λ = detail::combination(S((γ + y[0]) / sum), p, S((γ + p[0]) / sum), y);
       λ[0] = γ;
@@ -248,7 +249,8 @@ class lorentz_pairs {
       S const b = sqrt(det_λ) * sqrt(S(root_y_[at.number] / root_p_[at.number]));
       trial_root_[at.number] = b;
       auto const y = unscaled(at, λ);
-      S const pairing = algebra::pairing(over(block.lorentz_point(here), a), over(y, b));
+      S const pairing =
+          algebra::pairing(detail::over(block.lorentz_point(here), a), detail::over(y, b));
       S const most =
           sqrt(S((pairing + S(1)) / S(2))) + sqrt(S(std::max<S>(pairing - S(1), S(0)) / S(2)));
       out.coeffRef(at.row) = a * b * pairing;
@@ -327,10 +329,6 @@ class lorentz_pairs {
   template <class At>
   [[nodiscard]] static part_of<At> of(At const& at, std::vector<S> const& data) {
     return detail::entries_at<At::M>(&data[at.first]);
-  }
-  template <int M>
-  [[nodiscard]] static Eigen::Matrix<S, M, 1> over(Eigen::Matrix<S, M, 1> const& x, S const& a) {
-    return detail::from_entries<Eigen::Matrix<S, M, 1>>([&](int i) -> S { return x[i] / a; });
   }
   /// W⁻¹x = β⁻¹ (2 (Jv)(Jv)ᵀ − J) x,  v = (w̄ + e)/√(2 (w̄_0 + 1)),  β² = √(det p / det y).
   template <class At>

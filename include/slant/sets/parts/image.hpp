@@ -28,17 +28,6 @@ namespace slant::detail {
 // Membership and state of a point that is only known up to rounding, as when z = x − c has lost the
 // last digits of x and c: the bands of the set itself do not know about that.
 
-/// Every block of the set contains its part of x. The bound on the rounding error of a block knows
-/// its own components only: a large one elsewhere excuses nothing here.
-template <class C, class X>
-[[nodiscard]] bool blocks_contain(C const& set, X const& x) {
-  bool inside = true;
-  set.visit([&](auto const& block, auto const& p) {
-    inside = inside && block.contains(argument_of(block, p, x));
-  });
-  return inside;
-}
-
 /// Some point within the distance δ of z (sum of moduli) lies in the set, as far as the projection
 /// tells.
 template <class C, class Z, class S>
@@ -150,7 +139,13 @@ class image_set : public detail::static_size<static_dimension_of<Part>>,
     auto const& entries = slant::local(x);
     if (entries.size() != size()) return false;
     if constexpr (in_blocks) {
-      return detail::blocks_contain(*this, entries);
+      // The bound on the rounding error of a block knows its own components only: a large one
+      // elsewhere excuses nothing here.
+      bool inside = true;
+      visit([&](auto const& block, auto const& p) {
+        inside = inside && block.contains(detail::argument_of(block, p, entries));
+      });
+      return inside;
     } else {
       auto const z = map_.pull(entries).eval();
       return detail::contains_within(part(), z, map_.slop(entries, z));

@@ -69,25 +69,17 @@ struct set_laws {
     for (auto const& x : points) {
       dense const p = probe.project(x);
       S const allowed = probe.rounding(probe.magnitude(x) + slant::norm(p));
-      if (!(slant::norm(dense(probe.project(p) - p)) <= allowed)) {
-        log("idempotence", "P(P(x)) is off P(x) by " +
-                               text_of(slant::norm(dense(probe.project(p) - p))) +
-                               " at x = " + text_of(x));
-      }
-      if (!probe.contains(p)) log("contains(P(x))", "false at x = " + text_of(x));
-      if (probe.contains(x) && !(slant::norm(dense(p - x)) <= allowed)) {
-        log("contains(x) implies P(x) = x",
-            "x is moved by " + text_of(slant::norm(dense(p - x))) + " at x = " + text_of(x));
-      }
-      if (probe.unconstrained && !(slant::norm(dense(p - x)) <= allowed)) {
-        log("whole_space implies P(x) = x",
-            "x is moved by " + text_of(slant::norm(dense(p - x))) + " at x = " + text_of(x));
-      }
-      if (probe.unconstrained && !probe.contains(x)) {
-        log("whole_space implies contains(x)", "false at x = " + text_of(x));
-      }
-      if (!(probe.project_in_place(x) == p)) log("in place", "differs at x = " + text_of(x));
-      if (!(probe.project_over_nan(x) == p)) log("overwriting", "differs at x = " + text_of(x));
+      S const again = slant::norm(dense(probe.project(p) - p)), way = slant::norm(dense(p - x));
+      bool const inside = probe.contains(x), everywhere = probe.unconstrained;
+      log.expect(again <= allowed, "idempotence", "P(P(x)) is off P(x) by ", again, " at x = ", x);
+      log.expect(probe.contains(p), "contains(P(x))", "false at x = ", x);
+      log.expect(!inside || way <= allowed, "contains(x) implies P(x) = x", "x is moved by ", way,
+                 " at x = ", x);
+      log.expect(!everywhere || way <= allowed, "whole_space implies P(x) = x", "x is moved by ",
+                 way, " at x = ", x);
+      log.expect(!everywhere || inside, "whole_space implies contains(x)", "false at x = ", x);
+      log.expect(probe.project_in_place(x) == p, "in place", "differs at x = ", x);
+      log.expect(probe.project_over_nan(x) == p, "overwriting", "differs at x = ", x);
     }
   }
 
@@ -103,16 +95,13 @@ struct set_laws {
         S const allowed =
             probe.rounding(scale) *
             (slant::norm(dense(x - y)) + slant::norm(dense(p - q)) + probe.rounding(scale));
-        if (!((p - q).squaredNorm() <= (x - y).dot(p - q) + allowed)) {
-          log("nonexpansiveness", "x = " + text_of(x) + ", y = " + text_of(y));
-        }
+        log.expect((p - q).squaredNorm() <= (x - y).dot(p - q) + allowed, "nonexpansiveness",
+                   "x = ", x, ", y = ", y);
         S const product = (x - p).dot(q - p);
         S const slack = probe.rounding(scale) * (slant::norm(dense(x - p)) +
                                                  slant::norm(dense(q - p)) + probe.rounding(scale));
-        if (!(product <= slack)) {
-          log("variational inequality", "(x - P(x)).(z - P(x)) = " + text_of(product) +
-                                            " at x = " + text_of(x) + ", z = " + text_of(q));
-        }
+        log.expect(product <= slack, "variational inequality", "(x - P(x)).(z - P(x)) = ", product,
+                   " at x = ", x, ", z = ", q);
       };
       for (int k = 0; k < 6; ++k) check(points[std::size_t(sample.below(index(points.size())))]);
       for (S const& step : {S(1) / S(10), S(1) / S(1 << 14)}) {
@@ -136,18 +125,14 @@ struct set_laws {
   void check_slant_bounds(dense const& x) const {
     matrix const g = probe.slant(x);
     S const ε = S(64) * S(int(g.rows()) + 1) * std::numeric_limits<S>::epsilon();
-    if (!((g - g.transpose()).cwiseAbs().maxCoeff() <= ε)) {
-      log("slant is symmetric", "at x = " + text_of(x));
-    }
+    log.expect((g - g.transpose()).cwiseAbs().maxCoeff() <= ε, "slant is symmetric", "at x = ", x);
     // For symmetric G:  0 ⪯ G ⪯ I  ⟺  G − G² ⪰ 0.
     matrix excess = (g + g.transpose()) / S(2) - g.transpose().lazyProduct(g);
     excess.diagonal().array() += ε;
-    if (!is_definite(excess)) {
-      log("0 <= slant <= I", "an eigenvalue of G - G^2 is negative at x = " + text_of(x));
-    }
-    if (probe.renewed_slant && !(probe.renewed_slant(x) == g)) {
-      log("slant in place", "differs at x = " + text_of(x));
-    }
+    log.expect(is_definite(excess), "0 <= slant <= I",
+               "an eigenvalue of G - G^2 is negative at x = ", x);
+    log.expect(!probe.renewed_slant || probe.renewed_slant(x) == g, "slant in place",
+               "differs at x = ", x);
   }
 
   /// The limit along one direction.
@@ -171,9 +156,8 @@ struct set_laws {
       evidence += (k == 0 ? "|h|, error: " : "; ") + text_of(samples.length[k]) + ", " +
                   text_of(samples.error[k]);
     }
-    if (!samples.vanishes(S(4) * probe.rounding(probe.magnitude(y)))) {
-      log("slanting limit", evidence + " at y = " + text_of(y) + ", h ~ " + text_of(direction));
-    }
+    log.expect(samples.vanishes(S(4) * probe.rounding(probe.magnitude(y))), "slanting limit",
+               evidence, " at y = ", y, ", h ~ ", direction);
   }
 
   /// Moves a and b to neighbouring points between which G jumps, by bisection; false if it is
@@ -232,31 +216,29 @@ struct set_laws {
 
   void check_step(dense const& x, dense const& d) const {
     S const step = probe.step(x, d);
-    std::string const where = " at x = " + text_of(x) + ", d = " + text_of(d);
-    std::string const claim = "step " + text_of(step);
-    if (!(step >= S(0))) {
-      log("step_to_boundary >= 0", claim + where);
-      return;
-    }
+    auto const expect = [&](bool holds, char const* law) {
+      log.expect(holds, law, "step ", step, " at x = ", x, ", d = ", d);
+    };
+    expect(step >= S(0), "step_to_boundary >= 0");
+    if (!(step >= S(0))) return;
     S const length = slant::norm(d);
     bool const finite = step < std::numeric_limits<S>::infinity();
     if (!(length > S(0))) {
-      if (finite) log("step_to_boundary is infinite for d = 0", claim + where);
+      expect(!finite, "step_to_boundary is infinite for d = 0");
       return;
     }
     S size = probe.extent(x);
     if (!(size > S(0))) size = S(probe.options.size);
-    auto const outside_by = [&](S const& α) { return probe.distance(x + α * d); };
-    auto const accepted = [&](S const& α) {
-      return probe.rounding(probe.magnitude(x) + α * length);
+    auto const expect_inside = [&](S const& α) {
+      S const accepted = probe.rounding(probe.magnitude(x) + α * length);
+      expect(probe.distance(x + α * d) <= accepted, "step_to_boundary stays inside");
     };
     if (!finite) {
-      for (S const& α : {size / length, S(1000) * size / length}) {
-        if (!(outside_by(α) <= accepted(α))) log("step_to_boundary stays inside", claim + where);
-      }
+      expect_inside(size / length);
+      expect_inside(S(1000) * size / length);
       return;
     }
-    if (!(outside_by(step) <= accepted(step))) log("step_to_boundary stays inside", claim + where);
+    expect_inside(step);
     // A ray that stays close to the boundary for ever leaves the set very far off or not at all.
     if (!(S(1000) * step * length < size / probe.rounding(S(1)))) return;
     using std::sqrt;
@@ -264,29 +246,30 @@ struct set_laws {
     S const margin = S(8) * S(sqrt(S(sqrt(std::numeric_limits<S>::epsilon()))));
     S const beyond = S(1001) / S(1000) * step + margin * size / length;
     dense const far = x + beyond * d;
-    if (probe.contains(far)) log("step_to_boundary reaches the boundary", claim + where);
+    expect(!probe.contains(far), "step_to_boundary reaches the boundary");
     if (!probe.early_step) return;
     for (S const& enough : {S(step / S(2)), S(S(2) * step + size / length)}) {
       S const early = probe.early_step(x, d, enough);
-      if (!(early >= step) || (early < enough) != (step < enough)) {
-        log("step_to_boundary with early exit", text_of(early) + " instead of " + claim + where);
-      }
+      log.expect(early >= step && (early < enough) == (step < enough),
+                 "step_to_boundary with early exit", early, " instead of step ", step,
+                 " at x = ", x, ", d = ", d);
     }
   }
 
   void check_support(dense const& y, std::vector<dense> const& members,
                      set_sampler<S>& sample) const {
     S const value = probe.support(y);
-    std::string const claim = "support " + text_of(value) + " at y = " + text_of(y);
+    auto const expect = [&](bool holds, char const* law, auto const&... more) {
+      log.expect(holds, law, "support ", value, " at y = ", y, more...);
+    };
     S const length = slant::norm(y);
     if (!(length > S(0))) {
-      if (!(value == S(0))) log("support(0) = 0", claim);
+      expect(value == S(0), "support(0) = 0");
       return;
     }
     for (auto const& z : members) {
-      if (!(y.dot(z) <= value + probe.rounding(length * probe.magnitude(z)))) {
-        log("support is a bound", claim + ", z = " + text_of(z));
-      }
+      expect(y.dot(z) <= value + probe.rounding(length * probe.magnitude(z)), "support is a bound",
+             ", z = ", z);
     }
     // P(t y) maximises yᵀz − ‖z‖²/(2 t): it falls short of the support by at most ‖z*‖²/(2 t).
     auto const far = [&](S const& t) { return dense(probe.project((t / length) * y)); };
@@ -300,8 +283,7 @@ struct set_laws {
       S const reach = radii * radius;
       S const missing = value - y.dot(far(reach));
       S const allowed = length * radius * (radius / reach) + probe.rounding(reach * length);
-      if (!(missing <= allowed))
-        log("support is attained", claim + ", missing " + text_of(missing));
+      expect(missing <= allowed, "support is attained", ", missing ", missing);
     } else {
       // Where an unbounded set begins to be unbounded in the direction y is a matter of rounding,
       // so directions nearby may show it as well.
@@ -314,7 +296,7 @@ struct set_laws {
         S const gain = along(S(1000) * reach) - along(reach);
         unbounded = gain > length * farthest / S(100);
       }
-      if (!unbounded) log("support is infinite only if unbounded", claim);
+      expect(unbounded, "support is infinite only if unbounded");
     }
   }
 
@@ -349,14 +331,12 @@ struct set_laws {
     if (probe.contains(x)) {
       for (index i = 0; i < f.size(); ++i) {
         S const allowed = probe.rounding(size) * (g.col(i).norm() + probe.rounding(size));
-        if (!(f[i] <= allowed)) {
-          log("f(x) <= 0 in the set", "f = " + text_of(f) + " at x = " + text_of(x));
-        }
+        log.expect(f[i] <= allowed, "f(x) <= 0 in the set", "f = ", f, " at x = ", x);
       }
     } else if (probe.distance(x) > S(1 << 10) * probe.rounding(size)) {
       bool positive = false;
       for (index i = 0; i < f.size(); ++i) positive = positive || f[i] > S(0);
-      if (!positive) log("f(x) > 0 outside", "f = " + text_of(f) + " at x = " + text_of(x));
+      log.expect(positive, "f(x) > 0 outside", "f = ", f, " at x = ", x);
     }
   }
 
@@ -368,16 +348,12 @@ struct set_laws {
     if (!(length > S(0)) || !(size > S(0))) return;
     S const ε = std::numeric_limits<S>::epsilon();
     S const t = S(cbrt(ε)) * size / length;
-    auto const value = [&](dense const& p) { return dense(probe.inequality(p)); };
-    auto const gradient = [&](dense const& p) { return matrix(probe.inequality_gradient(p)); };
-    dense const ahead = x + t * d;
-    dense const behind = x - t * d;
-    dense const f = value(x);
-    dense const f_ahead = value(ahead);
-    dense const f_behind = value(behind);
-    matrix const g = gradient(x);
-    matrix const g_ahead = gradient(ahead);
-    matrix const g_behind = gradient(behind);
+    dense const ahead = x + t * d, behind = x - t * d;
+    dense const f = probe.inequality(x);
+    dense const f_ahead = probe.inequality(ahead), f_behind = probe.inequality(behind);
+    matrix const g = probe.inequality_gradient(x);
+    matrix const g_ahead = probe.inequality_gradient(ahead);
+    matrix const g_behind = probe.inequality_gradient(behind);
     S const tolerance = S(probe.options.rounding) * S(cbrt(ε)) * S(cbrt(ε));
     for (index i = 0; i < f.size(); ++i) {
       if (!(f_ahead[i] - f_behind[i] - (f_ahead[i] - f_behind[i]) == S(0)))
@@ -385,21 +361,16 @@ struct set_laws {
       S const scale = S(abs(f[i])) + S(abs(f_ahead[i])) + S(abs(f_behind[i])) +
                       (g.col(i).norm() + g_ahead.col(i).norm()) * size;
       S const error = S(abs(S((f_ahead[i] - f_behind[i]) / S(2) - t * g.col(i).dot(d))));
-      if (!(error <= tolerance * S(cbrt(ε)) * scale)) {
-        log("gradient of the inequality", "f" + text_of(i) + " at x = " + text_of(x));
-      }
+      log.expect(error <= tolerance * S(cbrt(ε)) * scale, "gradient of the inequality", "f", i,
+                 " at x = ", x);
     }
     matrix const h = probe.inequality_hessian(x, ν);
     dense const difference = (g_ahead - g_behind).lazyProduct(ν) / S(2);
     S const scale = (g.norm() + g_ahead.norm()) * ν.norm() + h.norm() * size;
-    if (!(slant::norm(dense(difference - t * h.lazyProduct(d))) <=
-          tolerance * S(cbrt(ε)) * scale)) {
-      log("Hessian of the inequality", "at x = " + text_of(x));
-    }
-    S const rounding = probe.rounding(h.norm());
-    if (!((h - h.transpose()).norm() <= rounding)) {
-      log("Hessian is symmetric", "at x = " + text_of(x));
-    }
+    S const error = slant::norm(dense(difference - t * h.lazyProduct(d)));
+    log.expect(error <= tolerance * S(cbrt(ε)) * scale, "Hessian of the inequality", "at x = ", x);
+    log.expect((h - h.transpose()).norm() <= probe.rounding(h.norm()), "Hessian is symmetric",
+               "at x = ", x);
   }
 
   /// Gradients on the boundary point out of the set.
@@ -412,9 +383,8 @@ struct set_laws {
       for (auto const& z : members) {
         S const slope = g.col(i).dot(z - x);
         S const size = probe.magnitude(x) + slant::norm(z);
-        if (!(slope <= probe.rounding(size) * g.col(i).norm())) {
-          log("gradient points outwards", "at x = " + text_of(x) + ", z = " + text_of(z));
-        }
+        log.expect(slope <= probe.rounding(size) * g.col(i).norm(), "gradient points outwards",
+                   "at x = ", x, ", z = ", z);
       }
     }
   }

@@ -4,7 +4,6 @@
 // and its close neighbourhood.
 #pragma once
 
-#include <slant/concepts/bad_input.hpp>
 #include <slant/concepts/convex_set.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/sets/blocks.hpp>
@@ -15,7 +14,6 @@
 #include <cstdint>
 #include <limits>
 #include <random>
-#include <string>
 #include <vector>
 
 namespace slant::testing {
@@ -210,16 +208,6 @@ template <class C, class V>
   }
   probe.origin = slant::norm(probe.project(dense::Zero(probe.size)));
   return probe;
-}
-
-/// Text of a number or a point.
-template <class T>
-[[nodiscard]] std::string text_of(T const& value) {
-  if constexpr (requires { value.transpose(); }) {
-    return "(" + slant::detail::show(value.transpose().eval()) + ")";
-  } else {
-    return slant::detail::show(value);
-  }
 }
 
 // --- set sampler ---------------------------------------------------------------------------------
