@@ -81,7 +81,6 @@ TEST_CASE("Newton: a singular system has a direction if damped, one of no use is
   double const before = n.begin(r);
   CHECK(n.advance(r, 1e-6));
   CHECK(n.residual_norm() < before);
-  // No step can be short enough if none is allowed to be shorter than a full one that fails.
   VectorXd bad = VectorXd::Constant(b.size(), std::nan(""));
   n.begin(bad);
   CHECK(!n.advance(bad, 1e-6));

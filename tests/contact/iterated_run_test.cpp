@@ -293,6 +293,13 @@ TEST_CASE("rows of N and T in any direction: reflections of the unknowns of a co
   CHECK((there.multipliers - here.multipliers).norm() <= 1e-6 * here.multipliers.norm());
 }
 
+TEST_CASE("a soft unknown takes the place of a stiff one, and loses nothing") {
+  Eigen::Matrix3d K, E;
+  K << 1e12, 3, 0.1, 3, 1, 0.5, 0.1, 0.5, 1;
+  E << 0, 1, 0, 1, 0, 0, 0, 0, 1;
+  CHECK(MatrixXd(contact::detail::congruent<double>(K.sparseView(), E.sparseView())) == E * K * E);
+}
+
 TEST_CASE("nested meshes: prolongations of the user, their levels begun on the coarser ones") {
   int const k = test::effort(12, 6);
   for (auto const load : fem::brick_loads) {

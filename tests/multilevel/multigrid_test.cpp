@@ -280,17 +280,14 @@ TEST_CASE("rigid-body modes are worth giving, as coordinates or as candidates") 
   CHECK(without.description().find("translations only") != std::string::npos);
 }
 
-TEST_CASE("nested meshes of 5 cells at last: their nodes have the rigid-body modes of finer ones" *
-          doctest::skip(!test::is_optimised)) {
+TEST_CASE("nested meshes of odd cells: rotations below" * doctest::skip(!test::is_optimised)) {
   auto const s = fem::make_steel_brick({.k = 10, .load = fem::brick_load::lift});
-  multigrid const moved(s.K,
-                        {.coordinates = test::moving_nodes(s), .prolongations = interpolation(10)});
-  multigrid const shifted(s.K, {.prolongations = interpolation(10)});
-  CHECK(moved.sizes().size() == 3);
+  auto const P = interpolation(10);
+  multigrid const moved(s.K, {.coordinates = test::moving_nodes(s), .prolongations = P});
+  multigrid const shifted(s.K, {.prolongations = P});
   for (auto const& held : {all_free(s.f.size()), touching(s, 0.5)}) {
-    int const few = steps(moved, masked(s.K, held), s.f, held);
-    CHECK(few <= 17);
-    CHECK(10 * few <= 8 * steps(shifted, masked(s.K, held), s.f, held));
+    auto const K = masked(s.K, held);
+    CHECK(10 * steps(moved, K, s.f, held) <= 8 * steps(shifted, K, s.f, held));
   }
 }
 

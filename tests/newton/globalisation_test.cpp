@@ -32,9 +32,6 @@ std::vector<double> lengths(G const& g, std::vector<double> const& residuals) {
 TEST_CASE("a full step is taken wherever F is finite") {
   CHECK(lengths(slant::full_step{}, {1e6}) == std::vector<double>{1});
   CHECK(lengths(slant::full_step{}, {quiet_nan}) == std::vector<double>{1, 0});
-  CHECK(lengths(slant::multiple_root{.multiplicity = 3}, {5}) == std::vector<double>{3});
-  CHECK(lengths(slant::multiple_root{}, {std::numeric_limits<double>::infinity()}) ==
-        std::vector<double>{2, 0});
 }
 
 TEST_CASE("halving ends at a sufficient decrease") {
@@ -56,7 +53,6 @@ TEST_CASE("the decrease asked for is that of an inexact model") {
 TEST_CASE("a scalar without silent conversions") {
   using S = slant::testing::archetype::scalar;
   static_assert(slant::globalisation<slant::full_step, S>);
-  static_assert(slant::globalisation<slant::multiple_root, S>);
   static_assert(slant::globalisation<slant::halving_line_search, S>);
   search_point<S> p{.residual = S(0.5), .residual_before = S(1.0)};
   CHECK(slant::halving_line_search{}.accepts(p));
@@ -64,8 +60,6 @@ TEST_CASE("a scalar without silent conversions") {
 }
 
 TEST_CASE("options are checked by name") {
-  CHECK_THROWS_WITH_AS(slant::multiple_root{.multiplicity = 0.5}.validate(),
-                       "multiplicity: got 0.5, expected a number in [1, ∞)", slant::bad_input);
   CHECK_THROWS_WITH_AS(slant::halving_line_search{.sufficient = 1}.validate(),
                        "sufficient: got 1, expected a number in (0, 1)", slant::bad_input);
   CHECK_THROWS_WITH_AS(slant::halving_line_search{.max_halvings = -1}.validate(),

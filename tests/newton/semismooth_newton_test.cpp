@@ -68,28 +68,6 @@ TEST_CASE("quadratic convergence: e⁺ ≤ c e² in each step, five steps to the
   CHECK(r.state.length == 1);
 }
 
-TEST_CASE("a root of multiplicity m: linear with 1 − 1/m, quadratic with steps of length m") {
-  for (int multiplicity : {2, 3}) {
-    CAPTURE(multiplicity);
-    auto const F =
-        equation([multiplicity](double y) { return std::pow(y - 1, multiplicity) * (y + 2); },
-                 [multiplicity](double y) {
-                   return std::pow(y - 1, multiplicity - 1) * (multiplicity * (y + 2) + (y - 1));
-                 });
-    auto const slow =
-        errors(slant::semismooth_newton{F, slant::direct_solver{}, slant::full_step{}}, number(2),
-               number(1), 20, 1e-5);
-    REQUIRE(slow.size() > 8);
-    for (std::size_t k = 6; k < slow.size(); ++k)
-      CHECK(slow[k] / slow[k - 1] == doctest::Approx(1 - 1.0 / multiplicity).epsilon(0.05));
-    slant::semismooth_newton const known{
-        F, slant::direct_solver{}, slant::multiple_root{.multiplicity = double(multiplicity)}};
-    auto const fast = errors(known, number(2), number(1), 20, 1e-12);
-    REQUIRE(fast.size() <= 6);
-    for (std::size_t k = 1; k < fast.size(); ++k) CHECK(fast[k] <= fast[k - 1] * fast[k - 1]);
-  }
-}
-
 TEST_CASE("√|y| sign y is not slantly differentiable: Newton goes to and fro, and says so") {
   auto const F = equation([](double y) { return std::copysign(std::sqrt(std::abs(y)), y); },
                           [](double y) { return 0.5 / std::sqrt(std::abs(y)); });
@@ -194,7 +172,10 @@ TEST_CASE("the size of steps, for rules that go by it [T (SSNM)]") {
   damped.step(t);
   REQUIRE(t.length < 1);
   CHECK(t.step_norm == doctest::Approx(10 * std::atan(3.0)));
-  slant::semismooth_newton const twice{F, slant::by_laws{}, slant::multiple_root{}};
+  struct double_step : slant::full_step {
+    [[nodiscard]] static int first_length() { return 2; }
+  };
+  slant::semismooth_newton const twice{F, slant::by_laws{}, double_step{}};
   auto u = twice.start(number(0.5));
   twice.step(u);
   CHECK(u.step_norm == doctest::Approx(std::abs(u.x[0] - 0.5)));

@@ -2,7 +2,6 @@
 #include <stability/verdict.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace stability {

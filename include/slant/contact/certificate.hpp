@@ -71,7 +71,7 @@ namespace slant::contact {
 /// solve(b, x) of a factorisation, as the certificate takes it. Refers to it.
 template <class Factorization>
 [[nodiscard]] auto solver(Factorization const& factor) {
-  return [&factor]<class V>(V const& b, V& x) { slant::apply(inverse(factor), b, x); };
+  return [&factor]<class V>(V const& b, V& x) { slant::detail::solve_once(factor, b, x); };
 }
 template <class Factorization>
 auto solver(Factorization const&&) = delete;

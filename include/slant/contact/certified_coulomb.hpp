@@ -40,7 +40,6 @@
 #include <slant/operators/identity.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>

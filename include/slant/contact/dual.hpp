@@ -224,7 +224,7 @@ class dual {
 
  private:
   void solve_once(vector_type const& load, vector_type& u) const {
-    slant::apply(inverse(factor_.get()), load, u);
+    slant::detail::solve_once(factor_.get(), load, u);
   }
 
   /// u without contact, about which the user has only f to look at.

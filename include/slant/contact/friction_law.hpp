@@ -41,6 +41,8 @@ inline constexpr index static_tangents<Friction> = Friction::tangents;
 /// it is one type for all of them.
 struct friction_of_data {
   index tangents;  ///< per node: 0, 1 or 2
+
+  explicit friction_of_data(index k) : tangents(k) {}
 };
 
 namespace detail {
@@ -112,61 +114,72 @@ template <class Coefficient>
 
 /// Fᵢ, whatever the slip; made by `coefficients`.
 template <class V>
-struct place_dependent_friction {
+class place_dependent_friction {
+ public:
   using scalar = scalar_t<V>;
-  V F;
+  explicit place_dependent_friction(V F) : F_(std::move(F)) { detail::check_coefficients("F", F_); }
+  [[nodiscard]] index size() const { return F_.size(); }
+  [[nodiscard]] scalar operator()(index i, scalar const&) const { return F_(i); }
 
-  [[nodiscard]] index size() const { return F.size(); }
-  [[nodiscard]] scalar operator()(index i, scalar const&) const { return F(i); }
+ private:
+  V F_;
 };
 
 /// f(i, ‖u_t,i‖); made by `slip_dependent`.
 template <class S, class Function>
-struct slip_dependent_friction {
+class slip_dependent_friction {
+ public:
   using scalar = S;
-  index contacts;
-  Function f;
-
-  [[nodiscard]] index size() const { return contacts; }
+  slip_dependent_friction(index contacts, Function f) : contacts_(contacts), f_(std::move(f)) {}
+  [[nodiscard]] index size() const { return contacts_; }
   /// Throws bad_input "f[3]: …" where f has no value >= 0 for contact 3, whatever calls it.
   [[nodiscard]] scalar operator()(index i, scalar const& slip) const {
-    scalar const F = f(i, slip);
+    scalar const F = f_(i, slip);
     if (F >= scalar(0)) return F;
     throw bad_input("f", slant::detail::show(F),
                     "a friction coefficient >= 0 for the slip " + slant::detail::show(slip))
         .at(i);
   }
+
+ private:
+  index contacts_;
+  Function f_;
 };
 
 /// F¹ along the first tangent, F² along the second; made by `orthotropic_coefficients`.
 template <class V>
-struct orthotropic_friction {
+class orthotropic_friction {
+ public:
   using scalar = scalar_t<V>;
-  V first, second;
+  orthotropic_friction(V first, V second) : first_(std::move(first)), second_(std::move(second)) {
+    slant::detail::check_size("F2", second_.size(), first_.size(), "as many as F1,");
+    detail::check_coefficients("F1", first_);
+    detail::check_coefficients("F2", second_);
+  }
+  [[nodiscard]] index size() const { return first_.size(); }
+  [[nodiscard]] V const& first() const { return first_; }
+  [[nodiscard]] V const& second() const { return second_; }
 
-  [[nodiscard]] index size() const { return first.size(); }
+ private:
+  V first_, second_;
 };
 
 /// A coefficient per contact. @throws bad_input "F[3]: …" unless all are finite and >= 0.
 template <class V>
 [[nodiscard]] auto coefficients(V F) {
-  detail::check_coefficients("F", F);
-  return place_dependent_friction<V>{std::move(F)};
+  return place_dependent_friction<V>(std::move(F));
 }
 /// f(i, slip) >= 0 for contact i and the length of its slip, a displacement; ∞ sticks. What calls f
 /// throws bad_input naming the contact where the value is negative or NaN.
 template <class S = double, class Function>
   requires std::convertible_to<std::invoke_result_t<Function const&, index, S>, S>
 [[nodiscard]] auto slip_dependent(index contacts, Function f) {
-  return slip_dependent_friction<S, Function>{contacts, std::move(f)};
+  return slip_dependent_friction<S, Function>(contacts, std::move(f));
 }
 /// Two coefficients per contact of bodies in space. @throws bad_input as `coefficients`.
 template <class V>
 [[nodiscard]] auto orthotropic_coefficients(V first, V second) {
-  slant::detail::check_size("F2", second.size(), first.size(), "as many as F1,");
-  detail::check_coefficients("F1", first);
-  detail::check_coefficients("F2", second);
-  return orthotropic_friction<V>{std::move(first), std::move(second)};
+  return orthotropic_friction<V>(std::move(first), std::move(second));
 }
 
 }  // namespace slant::contact

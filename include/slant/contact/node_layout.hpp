@@ -88,7 +88,7 @@ template <class M, class I>
   return layout;
 }
 
-/// Unknowns D i … D i + D − 1 at node i.
+/// Unknowns D i … D i + D − 1 at node i. Throws bad_input as node_layout::validate.
 template <class M>
 [[nodiscard]] node_layout<typename M::Scalar> interleaved_layout(Eigen::MatrixBase<M> const& x) {
   Eigen::VectorX<index> first(x.cols());

@@ -27,7 +27,6 @@
 #include <memory>
 #include <new>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #if __has_include(<cholmod.h>)

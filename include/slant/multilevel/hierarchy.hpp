@@ -30,8 +30,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -131,7 +129,7 @@ struct multigrid_level {
   prolongation<N, M, T> P;
   std::size_t longest = 0;     // of the rows of A P
   aggregation aggregates{};    // of its nodes, if nodes of the next level stand for them
-  near_kernel<M, M> kernel{};  // of the next level, in that case
+  near_kernel<M, M> kernel{};  // of the next level, if it has a node for each of them
   T largest = 0;               // eigenvalue of D⁻¹A, about; 0 where it was not asked for
 
   [[nodiscard]] T find_largest(bool in_any_units) const {
@@ -311,7 +309,8 @@ class hierarchy {
 
   [[nodiscard]] static double weaker(double θ) { return θ > 0.01 ? θ / 2 : 0; }
 
-  /// What a level below is made of: P, the pattern of PᵀA P, the aggregates and their near kernel.
+  /// What a level below is made of: P, the pattern of PᵀA P, the aggregates, and their near kernel
+  /// where each is one node.
   template <int F>
   struct level_below {
     prolongation<F, M, T> P;
@@ -385,7 +384,7 @@ class hierarchy {
     bool smooth = true;
     while (true) {
       aggregation a = aggregate(above.A, θ);
-      if (a.count == 0 || 10 * a.count > 9 * index(above.A.nodes())) {
+      if (a.count == 0 || 10 * a.count * (W / M) > 9 * index(above.A.nodes())) {
         if (θ == 0) return std::nullopt;
         θ = weaker(θ);
         continue;

@@ -102,7 +102,7 @@ class multigrid {
   // --- the next coarser level, for problems that are solved there first ---------------------------
 
   /// Which node of level 1 each node of K belongs to, with prolongations of the user the one of the
-  /// greatest weight; empty if there is no such level.
+  /// greatest weight; empty if there is no such level. Of aggregates where coarse_kernel() is empty.
   [[nodiscard]] aggregation const& aggregates() const {
     return std::visit([](auto const& h) -> aggregation const& { return h.fine.aggregates; },
                       *levels_);
@@ -114,7 +114,7 @@ class multigrid {
   /// The near kernel of level 1, n₁ × r for nodes of r unknowns, upper triangular blocks R: on an
   /// aggregate the candidates of K are Q R, Q what its unknowns stand for before smoothing. With
   /// prolongations of the user R = I, for constants as candidates. No rows where rotations follow
-  /// such prolongations: nodes are then halves of aggregates.
+  /// such prolongations: nodes of level 1 are then halves of aggregates.
   [[nodiscard]] matrix_type coarse_kernel() const;
   /// PᵀK P, of full blocks. As for the next three, there has to be a level 1: bad_input otherwise,
   /// and for an x that is not of the size of its level.

@@ -53,7 +53,7 @@ namespace slant {
 //     accepts(point)       is this the next iterate? Never true of a point where ‖F‖ is not finite
 //     next_length(point)   the α to try after a refusal; 0: give up
 //
-// Models. full_step, multiple_root, halving_line_search.
+// Models. full_step, halving_line_search.
 
 /// A point tried along a direction.
 template <class S>
@@ -76,27 +76,6 @@ concept globalisation = requires(G const& g, search_point<S> const& p) {
 /// α = 1 always: Newton's method itself. Local convergence.
 struct full_step {
   [[nodiscard]] static constexpr int first_length() { return 1; }
-  template <class S>
-  [[nodiscard]] bool accepts(search_point<S> const& p) const {
-    return detail::is_finite(p.residual);
-  }
-  template <class S>
-  [[nodiscard]] S next_length(search_point<S> const&) const {
-    return S(0);
-  }
-};
-
-/// α = m: a root of known multiplicity m is approached quadratically, where α = 1 is linear with
-/// the factor 1 − 1/m [Schröder 1870].
-struct multiple_root {
-  double multiplicity = 2;  ///< m ≥ 1
-
-  [[gnu::cold]] void validate() const {
-    detail::check_option("multiplicity", multiplicity,
-                         multiplicity >= 1 && detail::is_finite(multiplicity),
-                         "a number in [1, ∞)");
-  }
-  [[nodiscard]] double first_length() const { return multiplicity; }
   template <class S>
   [[nodiscard]] bool accepts(search_point<S> const& p) const {
     return detail::is_finite(p.residual);

@@ -72,6 +72,16 @@ template <class F> concept has_solve_member_and_no_apply = has_solve_member<F> &
 
 template <class F> concept factorization_like = has_rows<F> && has_solve_member_and_no_apply<F>;
 
+/// x = K⁻¹b, once: a factorisation that can do without a workspace makes none.
+template <class F, class V>
+void solve_once(F const& f, V const& b, V& x) {
+  if constexpr (has_plain_solve<F, V>) {
+    f.solve(b, x);
+  } else {
+    slant::apply(inverse_operator<F const&>(held<F const&>(f)), b, x);
+  }
+}
+
 }  // namespace detail
 
 /// A factorisation, or an operator with inverse().

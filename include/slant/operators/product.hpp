@@ -29,7 +29,6 @@
 #include <boost/hana/unpack.hpp>
 
 #include <array>
-#include <cmath>
 #include <string>
 
 namespace slant::expr {

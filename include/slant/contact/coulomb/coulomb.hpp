@@ -135,8 +135,8 @@ class coulomb_radii {
   void assign(vector_type& g) {
     for (scalar& bound : g) bound = bound > scalar(0) ? std::min<scalar>(bound, most()) : scalar(0);
     if constexpr (orthotropic) {
-      first_ = F_.first.cwiseProduct(g);
-      second_ = F_.second.cwiseProduct(g);
+      first_ = F_.first().cwiseProduct(g);
+      second_ = F_.second().cwiseProduct(g);
       sets_.update(first_, second_);
     } else {
       bounds_ = g;

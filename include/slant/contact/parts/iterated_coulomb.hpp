@@ -61,7 +61,7 @@ template <class Friction, class S, class Certificate>
   constexpr char const* no_more = "no more problems of Tresca's were allowed";
   certified_coulomb_result<vector_type> result{};
   result.factorization = run.levels().description();
-  S const tolerance(o.tolerance);
+  auto const tolerance = S(o.tolerance);
   index bounds = 0;
   auto how = status::converged;
   std::string why;

@@ -11,8 +11,9 @@
 // node, reversed, so that the envelope of a mesh is about as wide as its cross-section.
 //
 // Unknowns whose pivot cannot be told from zero, as the last ones of a body that floats and those of
-// aggregates that are held, are left out. So solve applies the inverse of a principal submatrix, a
-// generalised inverse, which is self-adjoint and semidefinite whatever rounding does to the pivots.
+// aggregates that are held, are left out. So solve applies the inverse of a principal submatrix, which
+// is self-adjoint and semidefinite whatever rounding does to the pivots, and a generalised inverse
+// where those that vanish are left out (weights of contrast leave more of them than 64 ε).
 //
 // Half the sum of (I − m_I)² products of blocks; factoring anew does not allocate.
 #pragma once

@@ -12,7 +12,6 @@
 // 16 bytes are those that every one has.
 #pragma once
 
-#include <cstddef>
 #include <cstring>
 #include <type_traits>
 #include <utility>

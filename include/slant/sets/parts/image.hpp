@@ -117,11 +117,13 @@ class image_set : public detail::static_size<static_dimension_of<Part>>,
     return {held<Part>(part().with(params...)), map_};
   }
 
-  /// T P(T⁻¹x) of a block.
+  /// T P(T⁻¹x) of a block; x itself where P leaves T⁻¹x, whatever rounding makes of T T⁻¹x.
   template <class X>
     requires is_block
   [[nodiscard]] auto project(X const& x) const {
-    return map_.push(slant::project(part(), map_.pull(x)));
+    using vector = Eigen::Matrix<scalar_t<X>, static_dimension_of<Part>, 1>;
+    vector const from = map_.pull(x), to = slant::project(part(), from);
+    return to == from ? vector(x) : vector(map_.push(to));
   }
   /// y = T P(T⁻¹x); y may be x.
   template <class X, class Y>
