@@ -98,8 +98,8 @@ TEST_CASE("coefficients by place, by slip, by direction") {
   CHECK(slip(2, 0.5) == doctest::Approx(0.7));
   auto const two = contact::orthotropic_coefficients(VectorXd{{0.1, 0.2}}, VectorXd{{0.3, 0.0}});
   CHECK(two.size() == 2);
-  CHECK(two.first(1) == 0.2);
-  CHECK(two.second(0) == 0.3);
+  CHECK(two.first()(1) == 0.2);
+  CHECK(two.second()(0) == 0.3);
 }
 
 TEST_CASE("coefficients that depend on the slip are looked at whenever they are asked for") {
