@@ -293,9 +293,9 @@ TEST_CASE("rows of N and T in any direction: reflections of the unknowns of a co
   CHECK((there.multipliers - here.multipliers).norm() <= 1e-6 * here.multipliers.norm());
 }
 
-TEST_CASE("a soft unknown takes the place of a stiff one, and loses nothing") {
+TEST_CASE("a soft unknown takes the place of a stiff one, and nothing is lost or made symmetric") {
   Eigen::Matrix3d K, E;
-  K << 1e12, 3, 0.1, 3, 1, 0.5, 0.1, 0.5, 1;
+  K << 1e12, 3, 0.1, 3, 1, 0.5, 0.1, 0.25, 1;
   E << 0, 1, 0, 1, 0, 0, 0, 0, 1;
   CHECK(MatrixXd(contact::detail::congruent<double>(K.sparseView(), E.sparseView())) == E * K * E);
 }

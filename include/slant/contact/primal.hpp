@@ -355,9 +355,9 @@ struct local_coordinates {
   }
 };
 
-/// EᵀK E for a K = Kᵀ and an E of which most columns are those of I. With F the other ones, D = I
-/// where there are none of them, and X = K F, it is D K D + D X + (D X)ᵀ + FᵀX: a few passes through
-/// K in place of the ten of products of sparse matrices, and nothing is subtracted.
+/// EᵀK E for an E of which most columns are those of I. With F the other ones, D = I where there are
+/// none of them, and X = K F, it is D K D + D X + FᵀK D + FᵀX: a few passes through K in place of the
+/// ten of products of sparse matrices. Nothing is subtracted, and what is not symmetric stays so.
 template <class S>
 [[nodiscard]] Eigen::SparseMatrix<S> congruent(Eigen::SparseMatrix<S> const& K,
                                                Eigen::SparseMatrix<S> const& E) {
@@ -371,8 +371,8 @@ template <class S>
   }
   sparse_type F = E * others.asDiagonal();
   F.prune(S(0));
-  sparse_type const X = K * F, DX = D.asDiagonal() * X;
-  sparse_type const Y = DX + sparse_type(DX.transpose()) + sparse_type(F.transpose() * X);
+  sparse_type const X = K * F, FK = F.transpose() * K, FX = F.transpose() * X;
+  sparse_type const Y = sparse_type(D.asDiagonal() * X) + sparse_type(FK * D.asDiagonal()) + FX;
   sparse_type const DKD = D.asDiagonal() * K * D.asDiagonal();
   return DKD + Y;
 }
