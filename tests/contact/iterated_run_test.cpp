@@ -563,6 +563,15 @@ TEST_CASE("what factors do not bring to an end is iterated after all") {
   CHECK(contact::solve(s.K, s.data, o).status == slant::status::iteration_limit);
 }
 
+TEST_CASE("a long bar: what rounding leaves of a level may be indefinite") {
+  auto const s = scene_of<3>(fem::make_steel_brick({.k = 6, .size = {100, 1, 1}}));
+  auto const r =
+      contact::solve(s.K, s.data, {.layout = s.layout, .route = solution_route::iterate});
+  CHECK(r.converged());
+  CHECK(r.work.inner_iterations <= 100);
+  CHECK(contact::check_optimality(s.K, s.data, r.u, r.multipliers).residual() <= 1e-4);
+}
+
 TEST_CASE("thin bodies over a foundation with uneven gaps") {
   // Newton's steps are cut to 1e-4 and less where a part that is set free is far from stiff.
   for (Eigen::Vector3d const& size : {Eigen::Vector3d(5, 0.4, 0.08), {6, 10, 0.06}}) {

@@ -750,7 +750,8 @@ TEST_CASE("level 1 as a problem of its own: the cycle is that of the same P, giv
   check(exact_multigrid(s.K, modes, {.coarsest = 100}), 6, {});
   auto const three = interpolation(8);
   check(exact_multigrid(s.K, {.prolongations = three, .coarsest = 100}), 3, {three[2]});
-  CHECK_THROWS_AS(exact_multigrid(s.K, {.coarsest = 100}).coarser(s.K, none), slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(exact_multigrid(s.K, {.coarsest = 100}).coarser(s.K, none)),
+                  slant::bad_input);
   CHECK(SLANT_COMPLAINT(exact_multigrid(laplacian(3, 3)).coarser(laplacian(3, 3), none)) ==
         "levels: got 1, expected a level 1 to begin with");
 }
@@ -763,6 +764,8 @@ TEST_CASE("options out of range are named") {
            {{.coordinates = MatrixXd::Constant(3, 2, quiet_nan)}, "coordinates(0, 0): got nan"},
            {{.block_size = -1}, "block_size: got -1, expected a number from 0 to 3"},
            {{.block_size = 4}, "block_size: got 4"},
+           {{.coordinates = MatrixXd::Ones(2, 3), .block_size = 3},
+            "block_size: got 3, expected 0, or the rows of coordinates"},
            {{.strength = -0.1}, "strength: got -0.1"},
            {{.strength = 1}, "strength: got 1"},
            {{.strength = quiet_nan}, "strength: got nan"},

@@ -355,26 +355,70 @@ struct local_coordinates {
   }
 };
 
-/// EᵀK E for an E of which most columns are those of I. With F the other ones, D = I where there are
-/// none of them, and X = K F, it is D K D + D X + FᵀK D + FᵀX: a few passes through K in place of the
-/// ten of products of sparse matrices. Nothing is subtracted, and what is not symmetric stays so.
+/// A column of a sparse matrix while terms are added to it.
+template <class S>
+struct column_sum {
+  Eigen::VectorX<S> entries;
+  std::vector<bool> held;
+  std::vector<index> rows{};
+
+  explicit column_sum(index n)
+      : entries(Eigen::VectorX<S>::Zero(n)), held(static_cast<std::size_t>(n)) {}
+
+  void add(index i, S const& term) {
+    entries[i] += term;
+    if (held[static_cast<std::size_t>(i)]) return;
+    held[static_cast<std::size_t>(i)] = true;
+    rows.push_back(i);
+  }
+  /// f(row, entry) for all; none is left.
+  template <class F>
+  void take(F f) {
+    for (index const i : rows) {
+      held[static_cast<std::size_t>(i)] = false;
+      f(i, std::exchange(entries[i], S(0)));
+    }
+    rows.clear();
+  }
+};
+
+/// EᵀK E for an E of which most columns and rows are those of I: columns of K that meet no other ones
+/// are copied. Nothing is subtracted, and what is not symmetric stays so.
 template <class S>
 [[nodiscard]] Eigen::SparseMatrix<S> congruent(Eigen::SparseMatrix<S> const& K,
                                                Eigen::SparseMatrix<S> const& E) {
   using sparse_type = Eigen::SparseMatrix<S>;
-  Eigen::VectorX<S> D(E.cols()), others(E.cols());
+  using entry = typename sparse_type::InnerIterator;
+  auto const is_own = [](sparse_type const& a, index j) {
+    entry e(a, j);
+    return e && e.row() == j && e.value() == S(1) && !++e;
+  };
+  sparse_type const rows = E.transpose();
+  std::vector<bool> own(static_cast<std::size_t>(rows.cols()));
+  for (index r = 0; r < rows.cols(); ++r) own[static_cast<std::size_t>(r)] = is_own(rows, r);
+
+  sparse_type A(E.cols(), E.cols());
+  A.reserve(K.nonZeros() + K.nonZeros() / 8);
+  column_sum<S> of_KE(K.rows()), of_A(E.cols());
   for (index j = 0; j < E.cols(); ++j) {
-    typename sparse_type::InnerIterator e(E, j);
-    bool const is_own = e && e.row() == j && e.value() == S(1) && !++e;
-    D[j] = S(is_own ? 1 : 0);
-    others[j] = S(is_own ? 0 : 1);
+    A.startVec(j);
+    bool copied = is_own(E, j);
+    for (entry k(K, j); copied && k; ++k) copied = own[static_cast<std::size_t>(k.row())];
+    if (copied) {
+      for (entry k(K, j); k; ++k) A.insertBack(k.row(), j) = k.value();
+      continue;
+    }
+    for (entry e(E, j); e; ++e) {
+      for (entry k(K, e.row()); k; ++k) of_KE.add(k.row(), e.value() * k.value());
+    }
+    of_KE.take([&](index r, S const& sum) {
+      for (entry e(rows, r); e; ++e) of_A.add(e.row(), e.value() * sum);
+    });
+    std::ranges::sort(of_A.rows);
+    of_A.take([&](index i, S const& sum) { A.insertBack(i, j) = sum; });
   }
-  sparse_type F = E * others.asDiagonal();
-  F.prune(S(0));
-  sparse_type const X = K * F, FK = F.transpose() * K, FX = F.transpose() * X;
-  sparse_type const Y = sparse_type(D.asDiagonal() * X) + sparse_type(FK * D.asDiagonal()) + FX;
-  sparse_type const DKD = D.asDiagonal() * K * D.asDiagonal();
-  return DKD + Y;
+  A.finalize();
+  return A;
 }
 
 }  // namespace slant::contact::detail

@@ -79,6 +79,9 @@ struct multigrid_options {
     if (block_size < 0 || block_size > 3) {
       throw bad_input("block_size", show(block_size), "a number from 0 to 3");
     }
+    if (coordinates.size() > 0 && block_size != 0 && block_size != coordinates.rows()) {
+      throw bad_input("block_size", show(block_size), "0, or the rows of coordinates");
+    }
     if (!(strength >= 0 && strength < 1)) {
       throw bad_input("strength", show(strength), "a number in [0, 1)");
     }
@@ -287,10 +290,22 @@ class hierarchy {
       if (e.work(B) > most_work) return;
       to = envelope_factor<B, T>(std::move(e));
       double const lowest = to.factor(A, A, whole_blocks{});
-      // Less is what rounding leaves of pivots of slender bodies, level after level.
-      if (lowest < -64 * std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon()))) {
-        throw bad_input("K", "a negative pivot on level " + show(static_cast<index>(coarse.size())),
-                        "a symmetric positive definite matrix");
+      // Rounding leaves slender bodies eigenvalues below zero, level after level, and pivots far
+      // below: is it more than a rise of the diagonal undoes?
+      double const rise = std::sqrt(static_cast<double>(std::numeric_limits<T>::epsilon()));
+      if (lowest < -64 * rise) {
+        T raised[B * B];
+        auto const raise = [&](int i, int j, T const* entries) -> T const* {
+          if (i != j) return entries;
+          std::copy(entries, entries + B * B, raised);
+          for (int c = 0; c < B; ++c) raised[(B + 1) * c] *= T(1 + rise);
+          return raised;
+        };
+        if (envelope_factor<B, T>(to).factor(A, A, raise) < 0) {
+          throw bad_input("K",
+                          "a negative pivot on level " + show(static_cast<index>(coarse.size())),
+                          "a symmetric positive definite matrix");
+        }
       }
       factored = true;
     };

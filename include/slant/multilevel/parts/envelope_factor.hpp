@@ -45,13 +45,11 @@ namespace slant::detail {
 /// exceeds least[c] ≥ 0. Returns the least of pivot / scale[c], of those with scale[c] > 0.
 template <int N, class S>
 S invert_semidefinite(S* a, S const* least, S const* scale) {
-  bool kept[N];
   S lowest(1);
   for (int c = 0; c < N; ++c) {
     S const d = a[c * N + c];
     if (scale[c] > S(0) && d < lowest * scale[c]) lowest = d / scale[c];
-    kept[c] = d > least[c];
-    if (!kept[c]) {
+    if (!(d > least[c])) {
       for (int i = 0; i < N; ++i) a[c * N + i] = a[i * N + c] = S(0);
       continue;
     }
