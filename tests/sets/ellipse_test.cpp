@@ -51,6 +51,7 @@ TEST_CASE("ellipse: aspect ratios beyond all use stay sane") {
   CHECK(needle.project(Vector2d(3e155, 1e-155)) == Vector2d(1e155, 0));
   CHECK(needle.project(Vector2d(1e100, 1e-156)) == Vector2d(1e100, 1e-156));
   CHECK(needle.project(Vector2d(0, 1)) == Vector2d(0, 1e-155));
+  CHECK(ellipse<>(1e170, 1e-170).slant(Vector2d(2e170, 0)) == Eigen::Matrix2d::Zero());
   CHECK(ellipse<>(1.0, 2.1e-292).project(Vector2d(1e17, 0)) == Vector2d(1, 0));
 }
 

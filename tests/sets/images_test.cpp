@@ -248,6 +248,9 @@ TEST_CASE("shifted: a disc around a centre") {
   CHECK((set.project(Vector2d(13, 24)) - Vector2d(11.2, 21.6)).norm() <= 1e-14);
   CHECK(set.project(Vector2d(11, 21)) == Vector2d(11, 21));
   CHECK(shifted(slant::ball<1>{2.0}, Vector1d(0.1)).project(Vector1d(1e-17))(0) == 1e-17);
+  auto const product = slant::half_lines(1) * slant::free_components(1);
+  Vector2d const inside(1, 1e-9);
+  CHECK(slant::project(shifted(product, Vector2d(0, 1e8)), inside) == inside);
   CHECK(set.contains(Vector2d(12, 20)));
   CHECK(!set.contains(Vector2d(12.001, 20)));
   CHECK(set.state(Vector2d(10, 20)) == block_state::free);

@@ -346,6 +346,7 @@ class ellipse {
     T(i) = -detail::times_power_of_two<S>(axis(i), -e) * foot.Y;
     T(j) = detail::times_power_of_two<S>(axis(j), -e) * foot.X;
     auto const length = detail::scaled_norm<S, 2>(T);
+    if (!(length.value > S(0))) return matrix_type::Zero();  // a tip too sharp for the numbers
     T = detail::times_power_of_two<S, 2>(T, -length.exponent) / length.value;
     S const w = detail::times_power_of_two<S>(length.value, length.exponent);
     S const factor = S(1) / (S(1) + (foot.ab_tau / w) / w);

@@ -125,10 +125,16 @@ class image_set : public detail::static_size<static_dimension_of<Part>>,
     vector const from = map_.pull(x), to = slant::project(part(), from);
     return to == from ? vector(x) : vector(map_.push(to));
   }
-  /// y = T P(T⁻¹x); y may be x.
+  /// y = T P(T⁻¹x), block by block where there are blocks; y may be x.
   template <class X, class Y>
     requires(!is_block)
   void project(X const& x, Y&& y) const {
+    if constexpr (in_blocks) {
+      visit([&](auto const& block, auto const& p) {
+        detail::project_part(block, p, slant::local(x), slant::local(y));
+      });
+      return;
+    }
     auto to = slant::local(y).head(size());  // a view: y has its size and is not to be resized
     to = map_.pull(slant::local(x));
     slant::project(part(), to, to);
