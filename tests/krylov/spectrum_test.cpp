@@ -40,6 +40,10 @@ TEST_CASE("a lonely eigenvalue hidden in one direction is found") {
   MatrixXd const M = spectrum.asDiagonal();
   auto const A = test::spd(M);
   CHECK(slant::largest_eigenvalue_bound(A, VectorXd(500)).upper >= 1e3);
+  Eigen::VectorXf many = Eigen::VectorXf::Ones(100'000);
+  many(7) = 3;
+  auto const D = slant::diagonal<slant::positive_semidefinite>(many);
+  CHECK(slant::largest_eigenvalue_bound(D, many).upper >= 3);
 }
 
 TEST_CASE("a dense cluster at the top, the worst case for few steps, is bounded too") {

@@ -3,6 +3,7 @@
 // Two processes take the same steps and reach the solution of one.
 #include <slant/slant.hpp>
 
+#include <certificates/made_programs.hpp>
 #include <support/testing.hpp>
 #include <support/two_processes.hpp>
 #include "mixture.hpp"
@@ -124,6 +125,27 @@ TEST_CASE("semismooth_newton: as many steps as alone") {
     return r;
   });
   CHECK((x - alone.x()).norm() <= 1e-10 * alone.x().norm());
+}
+
+TEST_CASE("energy_certificate: both parts count") {
+  auto const M = test::with_spectrum(test::log_spaced(21, 50));
+  VectorXd const b = test::random_vector(21, 5), x = b.cwiseMax(0.0);
+  slant::separable_qp const qp{test::spd(M), b, slant::half_lines(21)};
+  auto const exact = slant::solve(qp, 1e-12);
+  two_processes group;
+  CHECK(two_processes::run([&](int rank) {
+    auto const first = rank * 8, count = rank == 0 ? 8 : 13;
+    shared_vector const f(group, rank, b.segment(first, count));
+    slant::separable_qp const part{shared_matrix{M.middleRows(first, count)}, f,
+                                   slant::half_lines(count)};
+    auto const e =
+        slant::energy_certificate(part)(shared_vector(group, rank, x.segment(first, count)));
+    CHECK(e.size == doctest::Approx(test::energy_norm(M, x)));
+    double const error = test::energy_norm(M, x - exact.x());
+    CHECK((e.bound >= error / 1.5 && e.bound <= 5 * error));
+    auto const both = group.numbers(rank, e.bound);
+    CHECK(both[0] == both[1]);
+  }));
 }
 
 TEST_CASE("conjugate gradients") {

@@ -323,6 +323,19 @@ template <class V>
   }
 }
 
+/// The sum of the values that all processes holding x come with.
+template <class V>
+[[nodiscard]] scalar_t<V> total(V const& x, scalar_t<V> const& value) {
+  if constexpr (has_global_size<V>) {
+    V values = like(x, 1), ones = like(x, 1);
+    slant::local(values).coeffRef(0) = value;
+    slant::local(ones).coeffRef(0) = scalar_t<V>(1);
+    return slant::inner_product(values, ones);
+  } else {
+    return value;
+  }
+}
+
 // --- numbers like --------------------------------------------------------------------------------
 //
 // What a member returns: numbers of the right kind, as many as expected.

@@ -42,6 +42,16 @@ template <class S>
   return S(8) * std::numeric_limits<S>::epsilon();
 }
 
+/// √(a² + b²) for a, b ≥ 0, without the squares.
+template <class S>
+[[nodiscard]] S root_of_squares(S const& a, S const& b) {
+  using std::sqrt;
+  S const larger = a > b ? a : b, smaller = a > b ? b : a;
+  if (!(larger > S(0)) || !is_finite(larger)) return a + b;
+  S const ratio = smaller / larger;
+  return larger * S(sqrt(S(S(1) + ratio * ratio)));
+}
+
 }  // namespace slant::detail
 
 namespace slant {

@@ -45,7 +45,11 @@ namespace slant {
 /// curvature along what is left of the gradient, and where no step on the face of x meets the
 /// equations: that is not the face of x*.
 template <class QP, affine_space_with_rows<typename QP::vector_type> C, class M = identity_operator>
-class constrained_certificate {
+class constrained_certificate : detail::certificate_preconditioner<typename QP::vector_type, M> {
+  using base = detail::certificate_preconditioner<typename QP::vector_type, M>;
+  using base::stiffness_, base::typical_, base::most_, base::preconditioner;
+  using typename base::preconditioner_type;
+
  public:
   using vector_type = typename QP::vector_type;
   using scalar = typename QP::scalar;
@@ -55,9 +59,9 @@ class constrained_certificate {
       : constrained_certificate(qp, constraints, identity_operator(qp.size())) {}
   /// Throws bad_input if sizes do not match.
   constrained_certificate(QP const& qp, C const& constraints, M const& m)
-      : qp_(&qp),
+      : base(m, qp.b()),
+        qp_(&qp),
         constraints_(&constraints),
-        m_(m),
         load_(detail::projected_load(qp, constraints).projected),
         hessian_(projected_hessian(qp.a(), constraints)),
         x_(qp.b()),
@@ -72,10 +76,8 @@ class constrained_certificate {
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
     slant::apply(qp.a(), constraints.nearest(), image_of_nearest_, a_workspace_);
     auto const mean = detail::projected_mean_diagonal(qp.a(), constraints, qp.b());
-    typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    applications_ += 2 + mean.applications;
     applications_ +=
-        detail::set_stiffness<is_plain>(qp.a(), typical_, stiffness_, x_, gradient_, a_workspace_);
+        2 + mean.applications + this->learn(qp.a(), mean.value, x_, gradient_, a_workspace_);
   }
   constrained_certificate(QP const&&, C const&) = delete;
   constrained_certificate(QP const&&, C const&, M const&) = delete;
@@ -108,30 +110,18 @@ class constrained_certificate {
   [[nodiscard]] index applications() const { return applications_ + newton_.applications(); }
 
  private:
-  static constexpr bool is_plain = std::same_as<M, identity_operator>;
-  using diagonal_inverse = diagonal_operator<vector_type const&>;
-  using preconditioner_type = std::conditional_t<is_plain, diagonal_inverse, M>;
   using hessian_type = decltype(slant::projected_hessian(
       std::declval<typename QP::operator_type const&>(), std::declval<C const&>()));
   using projected_qp =
       separable_qp<hessian_type const&, vector_type const&, typename QP::set_type const&>;
 
-  /// M, or diag(stiffness) in its place.
-  [[nodiscard]] decltype(auto) preconditioner() const {
-    if constexpr (is_plain) {
-      return diagonal_inverse(held<vector_type const&>(stiffness_));
-    } else {
-      return (m_);
-    }
-  }
-  [[nodiscard]] index most() const { return qp_->size() < 200 ? qp_->size() + 8 : index(200); }
   [[nodiscard]] gradient_size<scalar> sizes() const { return {norm(x_), norm(qp_->b())}; }
 
   /// ‖P d‖_{(P A P)⁺}.
   [[nodiscard]] scalar norm_of(vector_type const& d) {
     slant::apply(constraints_->kernel_projector(), d, image_, of_P_);
     if (!(norm(image_) > scalar(0))) return norm(image_);
-    auto const e = dual_norm(hessian_, preconditioner(), image_, most(), false, workspace_, norm_,
+    auto const e = dual_norm(hessian_, preconditioner(), image_, most_, false, workspace_, norm_,
                              std::optional(sizes()));
     applications_ += e.applications;
     return e.value;
@@ -145,7 +135,7 @@ class constrained_certificate {
                  .gradient = gradient_,
                  .stiffness = stiffness_,
                  .ρ = typical_,
-                 .most = most(),
+                 .most = most_,
                  .sizes = sizes(),
                  .offset = &offset_,
                  .size_of_offset = size},
@@ -165,12 +155,10 @@ class constrained_certificate {
 
   QP const* qp_;
   C const* constraints_;
-  M m_;
   index applications_ = 0;
   vector_type load_;  // P (b − A x̄)
   hessian_type hessian_;
-  vector_type x_, offset_ = x_, point_ = x_, gradient_ = x_, stiffness_ = x_, image_ = x_,
-                  image_of_nearest_ = x_;
+  vector_type x_, offset_ = x_, point_ = x_, gradient_ = x_, image_ = x_, image_of_nearest_ = x_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
   workspace_t<hessian_type, vector_type> workspace_;
   workspace_t<decltype(std::declval<C const&>().range_projector()), vector_type> of_Q_;
@@ -178,7 +166,6 @@ class constrained_certificate {
   projected_qp projected_;
   dual_norm_workspace<vector_type, preconditioner_type> norm_;
   newton_estimate<projected_qp, preconditioner_type, cut_face<scalar>> newton_;
-  scalar typical_{1};  // 1/mean(diag P A P)
 };
 
 }  // namespace slant

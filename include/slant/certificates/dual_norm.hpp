@@ -23,10 +23,14 @@
 #include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
+#include <slant/operators/diagonal.hpp>
+#include <slant/operators/identity.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <optional>
+#include <type_traits>
 
 namespace slant {
 
@@ -133,7 +137,7 @@ template <class V>
   using S = scalar_t<V>;
   using std::sqrt;
   S const ux = unit_near(slant::norm(x)), uy = unit_near(slant::norm(y));
-  S const product = (slant::local(x) / ux).dot(slant::local(y) / uy);
+  S const product = slant::total(x, S((slant::local(x) / ux).dot(slant::local(y) / uy)));
   if (!(product > S(0))) return product == product ? S(0) : product;
   return S(S(sqrt(product)) * S(sqrt(ux)) * S(sqrt(uy)));
 }
@@ -149,7 +153,7 @@ template <class V>
     sum += entry * entry / slant::local(stiffness).coeff(i);
   }
   using std::sqrt;
-  return S(unit * (detail::epsilon<S>() / S(2)) * S(sqrt(sum)));
+  return S(unit * (detail::epsilon<S>() / S(2)) * S(sqrt(slant::total(x, sum))));
 }
 
 /// 1/diag A if A gives it or, with `probe`, has no more than 64 rows, else `typical`, the size of
@@ -182,5 +186,36 @@ index set_stiffness(A const& a, scalar_t<V> const& typical, V& stiffness, V& x, 
   }
   return 0;
 }
+
+/// What preconditions the conjugate gradients of a certificate: M, or in its place diag(A)⁻¹.
+template <class V, class M>
+class certificate_preconditioner {
+ protected:
+  using scalar = scalar_t<V>;
+  static constexpr bool is_plain = std::same_as<M, identity_operator>;
+  using preconditioner_type = std::conditional_t<is_plain, diagonal_operator<V const&>, M>;
+
+  certificate_preconditioner(M const& m, V const& b)
+      : m_(m), stiffness_(b), most_(std::min(slant::global_size(b) + 8, index(200))) {}
+
+  [[nodiscard]] decltype(auto) preconditioner() const {
+    if constexpr (is_plain) {
+      return preconditioner_type(held<V const&>(stiffness_));
+    } else {
+      return (m_);
+    }
+  }
+  /// From the mean of the diagonal; x and g are scratch. Returns the applications of A.
+  template <class A, class W>
+  index learn(A const& a, scalar const& mean, V& x, V& g, W& w) {
+    typical_ = mean > scalar(0) ? scalar(scalar(1) / mean) : scalar(1);
+    return set_stiffness<is_plain>(a, typical_, stiffness_, x, g, w);
+  }
+
+  M m_;
+  V stiffness_;        // of the size of diag(A)⁻¹
+  scalar typical_{1};  // 1/mean(diag A)
+  index most_;         // iterations
+};
 
 }  // namespace slant::detail

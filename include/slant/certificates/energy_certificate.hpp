@@ -48,7 +48,11 @@ dominating_inverse<M> dominates_inverse(M const&&) = delete;
 /// where A gives its diagonal or has no more than 64 rows, for as many applications: unknowns in
 /// units of their own would else hide the error from the estimate.
 template <class QP, class M = identity_operator>
-class energy_certificate {
+class energy_certificate : detail::certificate_preconditioner<typename QP::vector_type, M> {
+  using base = detail::certificate_preconditioner<typename QP::vector_type, M>;
+  using base::m_, base::stiffness_, base::typical_, base::most_, base::preconditioner;
+  using typename base::preconditioner_type;
+
  public:
   using vector_type = typename QP::vector_type;
   using scalar = typename QP::scalar;
@@ -62,6 +66,7 @@ class energy_certificate {
       : energy_certificate(qp, *m.inverse, true) {}
   explicit energy_certificate(QP const&&) = delete;
   energy_certificate(QP const&&, M const&) = delete;
+  energy_certificate(QP const&&, dominating_inverse<M>) = delete;
 
   [[nodiscard]] energy_error<scalar> operator()(vector_type const& x0) {
     if constexpr (quadratic_program<QP>) {
@@ -97,24 +102,16 @@ class energy_certificate {
                                                           local_t<vector_type>>;
 
   energy_certificate(QP const& qp, M const& m, bool dominates)
-      : qp_(&qp),
-        m_(m),
+      : base(m, qp.b()),
+        qp_(&qp),
         dominates_(dominates),
-        most_(qp.size() < 200 ? qp.size() + 8 : index(200)),
         a_workspace_(workspace(qp.a(), qp.b())),
         norm_(preconditioner(), qp.b()),
         newton_(qp, preconditioner()) {
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
     auto const mean = mean_diagonal(qp.a(), qp.b());
-    typical_ = mean.value > scalar(0) ? scalar(scalar(1) / mean.value) : scalar(1);
-    applications_ += mean.applications;
-    applications_ +=
-        detail::set_stiffness<is_plain>(qp.a(), typical_, stiffness_, x_, g_, a_workspace_);
+    applications_ += mean.applications + this->learn(qp.a(), mean.value, x_, g_, a_workspace_);
   }
-
-  static constexpr bool is_plain = std::same_as<M, identity_operator>;
-  using diagonal_inverse = diagonal_operator<vector_type const&>;
-  using preconditioner_type = std::conditional_t<is_plain, diagonal_inverse, M>;
 
   /// Of a set without faces nothing but the gap and the gradient is known.
   struct no_newton {
@@ -125,15 +122,6 @@ class energy_certificate {
       typename std::conditional_t<has_faces,
                                   std::type_identity<newton_estimate<QP, preconditioner_type>>,
                                   std::type_identity<no_newton>>::type;
-
-  /// M, or diag(stiffness) in its place.
-  [[nodiscard]] decltype(auto) preconditioner() const {
-    if constexpr (is_plain) {
-      return diagonal_inverse(held<vector_type const&>(stiffness_));
-    } else {
-      return (m_);
-    }
-  }
 
   /// What A x − b was computed from, for an A that may be singular.
   [[nodiscard]] std::optional<gradient_size<scalar>> sizes() const {
@@ -161,15 +149,12 @@ class energy_certificate {
   }
 
   QP const* qp_;
-  M m_;
   bool dominates_;
-  index most_;
   index applications_ = 0;
-  vector_type x_ = qp_->b(), g_ = x_, stiffness_ = x_;
+  vector_type x_ = qp_->b(), g_ = x_;
   workspace_t<typename QP::operator_type, vector_type> a_workspace_;
   dual_norm_workspace<vector_type, preconditioner_type> norm_;
   newton_type newton_;
-  scalar typical_{1};  ///< 1/mean(diag A)
 };
 
 }  // namespace slant

@@ -137,6 +137,7 @@ template <class S, int N>
     part.gap = x.dot(g) + R * force;
     return part;
   }
+  using std::abs;
   // In units of R and of R/ρ, in which no square leaves the range.
   point const e = x / R, h = g * (ρ / R);
   S const length = e.stableNorm();
@@ -306,20 +307,6 @@ struct energy_error {
   }
 };
 
-namespace detail {
-
-/// √(a² + b²) for a, b ≥ 0, without the squares.
-template <class S>
-[[nodiscard]] S root_of_squares(S const& a, S const& b) {
-  using std::sqrt;
-  S const larger = a > b ? a : b, smaller = a > b ? b : a;
-  if (!(larger > S(0)) || !is_finite(larger)) return a + b;
-  S const ratio = smaller / larger;
-  return larger * S(sqrt(S(S(1) + ratio * ratio)));
-}
-
-}  // namespace detail
-
 /// ½ (δ + √(δ² + 4γ)) from δ and √γ, rounded upwards; NaN if one of them is. γ itself is an energy,
 /// which may underflow where its root does not.
 template <class S>
@@ -379,7 +366,8 @@ template <class C, class X, class G, class M, class D>
     }
   });
   S const ε = detail::epsilon<S>();
-  result.root_of_gap = sqrt(gaps) * sqrt(unit) * (S(1) + S(terms + 64) * ε);
+  result.root_of_gap =
+      sqrt(slant::total(d, gaps)) * sqrt(unit) * (S(1) + (slant::total(d, S(terms)) + S(64)) * ε);
   return result;
 }
 

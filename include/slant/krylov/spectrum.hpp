@@ -153,7 +153,7 @@ template <class A, class V>
     S const β = norm(w);
     using std::abs;
     scale = std::max<S>(scale, std::max<S>(abs(α), β));
-    exhausted = !(β > S(n) * ε * scale);
+    exhausted = !(β > S(16) * ε * scale);  // noise that passes moves eigenvalues by noise only
     if (exhausted || k + 1 == steps) break;
     off_diagonal.push_back(β);
     vectors::copy(q, previous);

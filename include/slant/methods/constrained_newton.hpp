@@ -310,8 +310,7 @@ class constrained_newton<QP, C, M>
 
   [[nodiscard]] static scalar merit_of(state_type const& s, scalar const& of_x,
                                        scalar const& of_space) {
-    using std::hypot;
-    return hypot(of_x, of_space) / s.step_length;
+    return detail::root_of_squares(of_x, of_space) / s.step_length;
   }
 
   /// y = x and θ there.
