@@ -99,6 +99,8 @@ TEST_CASE("singular matrices, and those that are not numbers, are breakdowns") {
     broken(direct_solver{}, g);
     broken(sparse_direct_solver{}, g);
   }
+  VectorXd const tiny{{1.0, 1e-310}};  // its inverse is no number
+  broken(direct_solver{}, slant::diagonal<slant::positive_definite>(tiny));
 }
 
 }  // namespace direct_solver_test

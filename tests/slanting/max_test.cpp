@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <slant/newton/semismooth_newton.hpp>
+#include <slant/operators/counted.hpp>
 #include <slant/sets/sets.hpp>
 #include <slant/slanting/slanting.hpp>
 #include <slant/testing/archetypes.hpp>
@@ -33,6 +35,13 @@ TEST_CASE("max(F, G): the row of F at a tie") {
   MatrixXd const expected = Vector3d(2, 1, 2).asDiagonal();
   CHECK(dense_slant(f, y) == expected);
   slant::testing::check_slanting_laws(f, y, test::zeros(3));
+}
+
+TEST_CASE("Newton's method begins with one value of F") {
+  auto const A = slant::counted(MatrixXd(2 * MatrixXd::Identity(3, 3)));
+  auto const f = slant::stack(slant::min(slant::identity_map(3), slant::linear(A)));
+  static_cast<void>(slant::semismooth_newton{f}.start(test::zeros(3)));
+  CHECK(A.applications() == 1);
 }
 
 TEST_CASE("NaN in, NaN out") {

@@ -19,6 +19,7 @@
 #include <slant/operators/matrix.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -35,15 +36,23 @@ class known_inverse {
  public:
   static constexpr index factorizations = 0;
 
-  explicit known_inverse(W w) : w_(std::move(w)) {}
+  template <class G, class V>
+  known_inverse(G const& g, V const& f) {
+    try {
+      w_.emplace(slant::workspace(g.inverse(), f));
+    } catch (bad_input const&) {  // this one has none, which is for solve to say
+    }
+  }
 
   template <class G, class V>
   void solve(G const& g, V const& b, V& x) {
-    slant::apply(g.inverse(), b, x, w_);
+    auto const inverse = g.inverse();
+    if (!w_) w_.emplace(slant::workspace(inverse, b));
+    slant::apply(inverse, b, x, *w_);
   }
 
  private:
-  W w_;
+  std::optional<W> w_;
 };
 
 /// What direct solvers keep: factors, and what the residual needs.
@@ -136,8 +145,7 @@ struct direct_solver {
   [[nodiscard]] static auto factors_for(G const& g, V const& f) {
     using S = scalar_t<V>;
     if constexpr (has_inverse<G, V>) {
-      auto w = slant::workspace(g.inverse(), f);
-      return detail::known_inverse<decltype(w)>(std::move(w));
+      return detail::known_inverse<workspace_t<decltype(g.inverse()), V>>(g, f);
     } else if constexpr (detail::matrix_behind<G>::sparse) {
       return detail::sparse_lu<S>();
     } else {

@@ -298,8 +298,8 @@ struct gmres_solver {
       m.column[i + 1] = m.c[i] * m.column[i + 1] - m.s[i] * upper;
       entry(m, i, j) = m.column[i];
     }
-    using std::hypot;
-    S const length = hypot(m.column[j], below);
+    using std::abs;
+    S const length = detail::root_of_squares<S>(abs(m.column[j]), below);
     if (!(length > S(8) * detail::epsilon<S>() * whole)) return false;
     m.c[j] = m.column[j] / length;
     m.s[j] = below / length;

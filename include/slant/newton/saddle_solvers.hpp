@@ -249,7 +249,7 @@ void finish_direction(G const& g, V const& f, request_of<V> const& request, V& d
     return;
   }
   // The rounding errors of K⁻¹ count as well.
-  bool const enough = true_norm <= S(2) * request.tolerance * request.residual_norm;
+  bool const enough = true_norm <= attainable(request.tolerance) * request.residual_norm;
   if (report.status == status::converged && !enough) report.status = status::stalled;
   report.residual_norm = true_norm;
 }

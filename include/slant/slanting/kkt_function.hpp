@@ -129,6 +129,11 @@ class kkt_function : public slanting_base {
   [[nodiscard]] auto slant(Y const& y) const {
     return kkt_operator(f_.slant(y), ρ_);
   }
+  template <class Y, class W>
+    requires slanting_function<composed, plain_t<Y>>
+  [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
+    return kkt_operator(slant::slant_from_value(f_, y, w), ρ_);
+  }
   template <class Y, class G, class W>
   void slant(Y const& y, kkt_operator<G, scalar>& g, W& w) const {
     f_.slant(y, g.composed(), w);

@@ -198,10 +198,16 @@ class pointwise_pair : public slanting_base {
   [[nodiscard]] auto slant(Y const& y) const {
     auto w = workspace(y);
     evaluate_parts(y, w);
+    return slant_from_value(y, w);
+  }
+  template <class Y, class W>
+    requires usable<plain_t<Y>>
+  [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
     using first = slant_operator_t<left_type, Y>;
     using second = slant_operator_t<right_type, Y>;
     weighted_sum_operator<Kernel::chooses, plain_t<Y>, first, second> s(
-        slant::like(y, rows()), slant::like(y, rows()), left().slant(y), right().slant(y));
+        slant::like(y, rows()), slant::like(y, rows()), slant::slant_from_value(left(), y, w.first),
+        slant::slant_from_value(right(), y, w.second));
     set_slopes(s, w);
     return s;
   }

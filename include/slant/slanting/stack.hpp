@@ -86,6 +86,14 @@ class stack_map : public slanting_base {
       return slant::block(slant::block_row(f.get().slant(y))...);
     });
   }
+  template <class Y, class W>
+    requires usable<plain_t<Y>>
+  [[nodiscard]] auto slant_from_value(Y const& y, W const& w) const {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return slant::block(slant::block_row(
+          slant::slant_from_value(part<I>(), y, boost::hana::at_c<I>(w).inner))...);
+    }(std::index_sequence_for<F...>{});
+  }
   template <class Y, class G, class W>
   void slant(Y const& y, G& g, W& w) const {
     for_each([&](auto const& f, auto i, index) {
