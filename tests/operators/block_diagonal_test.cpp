@@ -108,6 +108,8 @@ TEST_CASE("A ⊗ B is what its definition says, and so is its adjoint") {
   CHECK(k.rows() == 8);
   CHECK(k.cols() == 15);
   CHECK(test::matches(k, kronecker(a, b)));
+  VectorXd d(6);  // of a square product of factors that are not
+  CHECK_THROWS_AS(slant::kronecker(a, MatrixXd(a.transpose())).diagonal(d), slant::bad_input);
   slant::testing::check_operator_laws(k);
   VectorXd const x = test::random_column(15, 3);
   VectorXd y(8);

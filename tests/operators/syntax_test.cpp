@@ -72,6 +72,7 @@ TEST_CASE("which operands find the operators, and which do not") {
   static_assert(slant::slanting_map<decltype(std::declval<B>() * slant::identity_map{2})>);
   static_assert(!slant::expression<decltype(std::declval<MatrixXd>() * std::declval<MatrixXd>())>);
   static_assert(slant::eigen_matrix<decltype(std::declval<VectorXd&>().head(3))>);
+  static_assert(!slant::operand<Eigen::MatrixXcd>);  // Aᵀ would not be the adjoint
 }
 
 TEST_CASE("what is refused, in a sentence that names it") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Driver, range of iterates, stopping rules, observers, report.
+// Driver, stopping rules, observers, nested iteration.
 #pragma once
 
 // IWYU pragma: begin_exports

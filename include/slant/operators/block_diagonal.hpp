@@ -85,6 +85,7 @@ class block_diagonal_operator {
   void diagonal(D& d) const {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       auto const one = [&](auto const& block, index row) {
+        detail::require_square("a block", block);
         auto own = slant::like(d, block.rows());
         block.diagonal(own);
         slant::local(d).middleRows(row, block.rows()) = slant::local(own);

@@ -97,7 +97,8 @@ void require_diagonal_laws(D const& d) {
 /// diag(d), referenced if d is an lvalue. Throws bad_input if an entry is not finite or breaks one
 /// of the laws.
 template <law... L, class D>
-  requires has_local<std::remove_cvref_t<D>> || has_like<std::remove_cvref_t<D>>
+  requires scalar<scalar_t<std::remove_cvref_t<D>>> &&
+           (has_local<std::remove_cvref_t<D>> || has_like<std::remove_cvref_t<D>>)
 [[nodiscard]] auto diagonal(D&& d) {
   using plain = plain_t<std::remove_cvref_t<D>>;
   using kept = std::conditional_t<std::is_same_v<plain, std::remove_cvref_t<D>>, kept_t<D>, plain>;

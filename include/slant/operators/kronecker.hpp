@@ -82,6 +82,8 @@ class kronecker_operator {
   template <class D>
     requires has_diagonal<left, plain_t<D>> && has_diagonal<right, plain_t<D>>
   void diagonal(D& d) const {
+    detail::require_square("A", a_.get());
+    detail::require_square("B", b_.get());
     auto of_a = slant::like(d, a_.get().rows());
     auto of_b = slant::like(d, b_.get().rows());
     a_.get().diagonal(of_a);

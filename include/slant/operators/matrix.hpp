@@ -34,11 +34,12 @@ void eigen_object(Eigen::EigenBase<M> const&);
 
 }  // namespace detail
 
-/// An Eigen matrix or matrix expression, dense or sparse.
+/// An Eigen matrix or matrix expression, dense or sparse, of real numbers.
 template <class M>
 concept eigen_matrix = requires(std::remove_cvref_t<M> const& m) {
   typename std::remove_cvref_t<M>::PlainObject;
   detail::eigen_object(m);
+  requires scalar<typename std::remove_cvref_t<M>::Scalar>;
 };
 
 namespace detail {
