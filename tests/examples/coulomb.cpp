@@ -123,18 +123,13 @@ TEST_CASE("coulomb: where Newton's method fails the other one goes on") {
 
 TEST_CASE("coulomb refuses bad options in one line") {
   auto const check = [](auto const&... with) { check_refused("coulomb", with...); };
-  check("--friction -1", "--friction: got -1, expected a finite number >= 0");
   check("--friction inf", "--friction: got inf, expected a finite number >= 0");
-  check("--friction-across nan", "--friction-across: got nan, expected a finite number >= 0");
   check("--friction-variation 1.5", "--friction-variation: got 1.5, expected a number in [0, 1]");
-  check("--model wire", "--model: got wire, expected brick, bricks or plates");
   check("--method cg", "--method: got cg, expected coulomb, newton or radii");
   check("--method newton --friction-across 0.2",
         "--method: got newton, expected coulomb or radii, as --friction-across is given");
   check("--model plates --friction-across 0.2",
         "--friction-across: got 0.2, expected nothing with --model plates");
-  check("--steps 0", "--steps: got 0, expected a whole number >= 1");
-  check("--output /dev/null", "--output: got /dev/null");
 }
 
 }  // namespace coulomb

@@ -49,11 +49,6 @@ TEST_CASE("stokes: path following takes no more products than the lecture's") {
   }
 }
 
-TEST_CASE("stokes: not converged is not success") {
-  check_failed("stokes", "--refinement 1 --method active_set --max-iterations 3",
-               "iteration_limit: reached the limit of 3 steps");
-}
-
 TEST_CASE("stokes: what cannot be used is named in one line") {
   auto const refused = [](auto const&... with) { check_refused("stokes", with...); };
   io_test::temporary_folder const folder;
