@@ -49,30 +49,36 @@ def sentences(root):
     solves = [number(row[5]) for row in factored]
     composed = table(accuracy, "| k | unknowns | load | linear solve | everything")
     solves += [number(row[5]) for row in composed]
+    solves += [number(row[4]) for row in every if "condensed" in row[3]]
     unknowns = [int(row[1]) for row in factored + composed]
     yield (f"| contact with friction, {min(unknowns)} to {max(unknowns)} unknowns, with factors | "
            f"{span(solves, 1)} sparse direct solves with K |")
-    yield (f"| to 1e-6, the fastest of PETSc/TAO, IPOPT, CVXOPT, Siconos | "
+    yield (f"| contact to 1e-6, the fastest of PETSc/TAO, IPOPT, CVXOPT, Siconos | "
            f"{span([number(row[6]) for row in every], 0)} times our time |")
 
-    nested = re.search(r"k = 24, ([\d.]+ to [\d.]+) at k = 32\. Where", accuracy)[1]
-    for name, heading, more in (
-        ("contact with friction, {} unknowns, multigrid", "press: steps/cycles",
-         f"; {nested} with nested meshes"),
-        ("the same with Coulomb's law", "press: problems/cycles", "")):
+    beside = table(results, "| scene, size | unknowns | one linear")
+    nested = re.search(r"k = 24, ([\d.]+) to ([\d.]+) at k = 32\. Where", accuracy)
+    for name, heading in (("contact with friction, {} unknowns, multigrid", "press: steps/cycles"),
+                          ("the same with Coulomb's law", "press: problems/cycles")):
         large = table(accuracy, f"| k | unknowns | {heading}, seconds")[-1]
-        seconds = [number(cell.split(",")[1].strip()) for cell in large[2:5]]
-        yield (f"| {name.format(large[1])} | "
-               f"{span([s / number(large[6]) for s in seconds], 2)} of one direct solve{more} |")
-    largest, by_nested = table(results, "| scene, size | unknowns | one linear")[-1], growth[-1]
-    yield (f"| contact with Tresca friction, {largest[1]} unknowns, multigrid | {largest[4]}; "
-           f"{by_nested[7].split(',')[0]} and {by_nested[9]} MiB with "
-           f"nested meshes |")
+        ratios = [number(cell.split(",")[1].strip()) / number(large[6]) for cell in large[2:5]]
+        more = ""
+        if "steps" in heading:
+            solve = next(row for row in growth if row[1] == large[1])
+            ratios.append(number(next(row for row in beside if row[1] == large[1])[4]) / number(solve[2]))
+            more = f"; {span([float(nested[1]), float(nested[2]), number(solve[8])], 2)} with nested meshes"
+        yield f"| {name.format(large[1])} | {span(ratios, 2)} of one direct solve{more} |"
+    largest = beside[-1]
+    huge = next(row for row in table(accuracy, "| k | unknowns | Tresca | nested") if row[1] == largest[1])
+    one, other = ([number(part) for part in cell.split(", ")[1:]] for cell in huge[2:4])
+    yield (f"| contact with Tresca friction, {largest[1]} unknowns, multigrid | "
+           f"{span([one[0], number(largest[4])], 1)} s; {span([other[0], number(growth[-1][7])], 1)} s and "
+           f"{span([other[1], number(growth[-1][9])], 0)} MiB with nested meshes |")
 
     linear = table(accuracy, "| k | unknowns | one linear solve, ours")
     seconds = [[number(cell.split(",")[1].strip()) for cell in row[2:]] for row in linear]
     least = int(linear[0][1])
-    more = [row for row in table(results, "| scene, size | unknowns | one linear") if int(row[1]) >= least]
+    more = [row for row in beside if int(row[1]) >= least]
     ours = [s / row[0] for row in seconds for s in row[3:]] + [number(row[5]) for row in more]
     theirs = [s / row[1] for row in seconds for s in row[3:]] + [number(row[6]) for row in more]
     yield (f"| contact with friction by multigrid, {least} unknowns and more | {span(ours, 1)} linear solves by "

@@ -42,7 +42,7 @@ TEST_CASE("the load grows in twenty steps") {
   auto const method = slant::symmetric_newton{problem.qp(), M};
   auto const stop = slant::reduced_gradient_below(1e-9) || slant::at_most(100);
   auto const path = std::views::iota(1, 21) | std::views::transform([&](int i) {
-                      return contact::load_step<>{.f = i / 20.0 * data.f};  // also .d, .g
+                      return contact::load_step<>{.f = i / 20.0 * data.f};  // also .d, .g, .w
                     });
   for (auto const& step : contact::load_steps(problem, method, stop, path)) {
     if (!step.converged()) FAIL("step ", step.number, ": ", step.reason);  // it is the last one
