@@ -349,6 +349,7 @@ struct local_coordinates {
     matrix_type const Q = qr.householderQ() * matrix_type::Identity(k, k);
     for (index i = 0; i < k; ++i) {
       for (index j = 0; j < k; ++j) {
+        if (Q(j, i) == S(0)) continue;
         entries.emplace_back(int(support[std::size_t(i)]), int(support[std::size_t(j)]), Q(j, i));
       }
     }

@@ -234,7 +234,7 @@ class ssnm<QP, LinearSolver> {
     auto f_workspace = slant::workspace(f_, y);
     slant::evaluate(f_, y, residual, f_workspace);
     detail::check_finite("F(x0)", residual);
-    auto g = f_.slant(y);
+    auto g = slant::slant_from_value(f_, y, f_workspace);
     auto prepared = solver_.prepare(g, residual);
     state_type s{
         x0, z0, y, std::move(residual), std::move(g), std::move(f_workspace), std::move(prepared)};

@@ -275,7 +275,7 @@ class hierarchy {
   }
 
   /// Factors the last level, once, and bounds spectra for polynomials. Throws bad_input if K is
-  /// found not to be semidefinite.
+  /// found not to be semidefinite by more than √ε.
   void finish(double most, index chebyshev) {
     most_work = most;
     degree = chebyshev;

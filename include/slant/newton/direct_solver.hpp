@@ -46,7 +46,7 @@ class known_inverse {
 
   template <class G, class V>
   void solve(G const& g, V const& b, V& x) {
-    auto const inverse = g.inverse();
+    auto const& inverse = g.inverse();
     if (!w_) w_.emplace(slant::workspace(inverse, b));
     slant::apply(inverse, b, x, *w_);
   }
