@@ -316,7 +316,7 @@ describe_machine() {
   local compiler
   printf '| | |\n|---|---|\n'
   printf '| processor | %s, %s cores |\n' \
-    "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)" "$(nproc)"
+    "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)" "$(nproc --all)"
   for compiler in $(compilers); do
     printf '| %s | %s |\n' "$compiler" "$("$compiler" --version | head -n 1)"
   done

@@ -80,6 +80,9 @@ TEST_CASE("rows of every length, by rows and by columns") {
   CHECK(image(slant::matrix(rows)) == dense * x);
   CHECK(image(slant::adjoint(slant::matrix(rows))) == dense.transpose() * x);
   CHECK(image(slant::matrix<slant::self_adjoint>(columns)) == symmetric * x);
+  VectorXd d(n);
+  slant::matrix(columns).diagonal(d);
+  CHECK(d == symmetric.diagonal());
   Eigen::SparseVector<double> const row = columns.col(5);
   CHECK(image(slant::adjoint(slant::matrix(row))) == symmetric.col(5).transpose() * x);
   columns.insert(0, 0) = 0;

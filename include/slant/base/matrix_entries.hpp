@@ -71,6 +71,11 @@ template <class M>
 inline constexpr bool is_sparse_matrix =
     std::is_base_of_v<Eigen::SparseMatrixBase<std::remove_cvref_t<M>>, std::remove_cvref_t<M>>;
 
+/// A sparse matrix, or a view of one, whose entries can be reached as arrays.
+template <class M>
+inline constexpr bool is_compressed_matrix =
+    std::is_base_of_v<Eigen::SparseCompressedBase<M>, M> && !M::IsVectorAtCompileTime;
+
 /// f(row, column, value) for each stored entry.
 template <class M, class F>
 void for_each_entry(M const& m, F f) {
@@ -91,8 +96,42 @@ void for_each_entry(M const& m, F f) {
   return std::string(name) + "(" + std::to_string(i) + ", " + std::to_string(j) + ")";
 }
 
+/// d = diag m. In meshes the diagonal entry of a column stands about where that of
+/// the one before stood in its own; a search from the middle waits for memory several times.
+template <class M, class D>
+void copy_diagonal(M const& m, D&& d) {
+  index const n = std::min<index>(m.rows(), m.cols());
+  if constexpr (is_compressed_matrix<M>) {
+    auto const* const inner = m.innerIndexPtr();
+    std::ptrdiff_t place = 0;
+    for (index j = 0; j < n; ++j) {
+      std::ptrdiff_t const first = m.outerIndexPtr()[j];
+      std::ptrdiff_t const end =
+          m.isCompressed() ? m.outerIndexPtr()[j + 1] : first + m.innerNonZeroPtr()[j];
+      std::ptrdiff_t at = std::min(first + place, end);
+      while (at < end && inner[at] < j) ++at;
+      while (at > first && inner[at - 1] >= j) --at;
+      bool const there = at < end && inner[at] == j;
+      d.coeffRef(j) = there ? m.valuePtr()[at] : typename M::Scalar(0);
+      place = at - first;
+    }
+  } else {
+    for (index j = 0; j < n; ++j) d.coeffRef(j) = m.coeff(j, j);
+  }
+}
+
 /// Throws bad_input naming the first entry that is NaN or infinite.
-void require_finite_entries(std::string_view name, auto const& m) {
+template <class M>
+void require_finite_entries(std::string_view name, M const& m) {
+  using S = typename M::Scalar;
+  if constexpr (is_compressed_matrix<M> && std::is_floating_point_v<S>) {
+    // One pass over the numbers alone; which one it is, is asked where there is one.
+    if (m.outerSize() > 0 && m.isCompressed()) {
+      Eigen::Map<Eigen::Array<S, Eigen::Dynamic, 1> const> const values(
+          m.valuePtr() + m.outerIndexPtr()[0], m.nonZeros());
+      if ((values - values).sum() == S(0)) return;
+    }
+  }
   for_each_entry(m, [&](index i, index j, auto const& value) {
     if (!is_finite(value)) {
       throw bad_input(entry_text(name, i, j), show(value), "a finite number");

@@ -575,7 +575,9 @@ class primal {
   /// Of K in local coordinates, or nothing if that is K.
   [[nodiscard]] sparse_type scaled(sparse_type own) {
     sparse_type const& K = own.rows() == 0 ? *K_ : own;
-    vector_type const scales = local_.scale(K.diagonal());
+    vector_type diagonal(K.rows());
+    slant::detail::copy_diagonal(K, diagonal);
+    vector_type const scales = local_.scale(diagonal);
     if (scales.size() == 0) return own;
     return scales.asDiagonal() * K * scales.asDiagonal();
   }

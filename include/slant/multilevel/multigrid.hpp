@@ -338,12 +338,8 @@ class multigrid {
   template <int N>
   static S shorten(S const* x, index n, std::vector<T>& b) {
     constexpr std::size_t stride = block_matrix<N, T>::stride;
-    S most(0);
-    for (index i = 0; i < n; ++i) {
-      S const size = x[i] < S(0) ? S(-x[i]) : x[i];
-      if (!(size <= most)) most = size;
-    }
-    S const unit = unit_near(most), inverse = S(1) / unit;
+    Eigen::Map<vector_type const> const values(x, n);
+    S const unit = unit_near(n > 0 ? S(values.cwiseAbs().maxCoeff()) : S(0)), inverse = S(1) / unit;
     for (std::size_t i = 0; i < static_cast<std::size_t>(n) / N; ++i) {
       for (std::size_t c = 0; c < N; ++c) b[i * stride + c] = T(S(x[i * N + c] * inverse));
     }

@@ -134,11 +134,7 @@ class matrix_operator {
 
   /// d = diag(M) of a square matrix.
   void diagonal(has_scalar<scalar> auto& d) const {
-    if constexpr (requires { m_.get().diagonal(); }) {
-      slant::local(d) = m_.get().diagonal();
-    } else {  // a map of a sparse matrix
-      for (index i = 0; i < rows(); ++i) slant::local(d).coeffRef(i) = m_.get().coeff(i, i);
-    }
+    detail::copy_diagonal(m_.get(), slant::local(d));
   }
   void columns(index first, has_scalar<scalar> auto& y) const {
     slant::local(y) = m_.get().middleCols(first, slant::local(y).cols());
