@@ -117,6 +117,7 @@ TEST_CASE("zero, nothing, infinity and NaN stay what they are") {
   both(VectorXd{{1.0, std::numeric_limits<double>::infinity()}},
        [](double norm) { CHECK(std::isinf(norm)); });
   both(VectorXd{{1.0, std::nan("")}}, [](double norm) { CHECK(std::isnan(norm)); });
+  CHECK_THROWS_AS(static_cast<void>(slant::like(Vector3d(1, 2, 3), 0)), std::invalid_argument);
 }
 
 }  // namespace vector_test

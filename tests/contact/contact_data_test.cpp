@@ -133,6 +133,8 @@ TEST_CASE("layouts that do not fit") {
         "x(0, 1): got inf, expected a finite number");
   CHECK(SLANT_COMPLAINT(layout_of(x, Eigen::VectorXi{{0, 2}})) ==
         "first: got 2, expected the number of nodes, 3");
+  CHECK(SLANT_COMPLAINT(layout_of(x, Eigen::VectorXi{{0, 1, 3}})) ==
+        "first[1]: got 1, expected unknowns of its own");
   // An unknown between those of two nodes that belongs to none.
   CHECK(SLANT_COMPLAINT(layout_of(x, Eigen::VectorXi{{0, -1, 3}})) ==
         "node[2]: got -1, expected a column of x");

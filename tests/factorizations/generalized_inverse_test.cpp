@@ -169,6 +169,11 @@ TEST_CASE("more directions than the iteration begins with") {
     K.insert(i, i ^ 1) = -1;
   }
   CHECK(slant::computed_kernel(K).cols() == 12);
+  sparse const apart = VectorXd::LinSpaced(24, 0, 23)
+                           .unaryExpr([](double i) { return i < 2 ? 1e30 : 1.0; })
+                           .asDiagonal() *
+                       K;
+  CHECK_THROWS_AS(static_cast<void>(slant::computed_kernel(apart)), slant::bad_input);
 }
 
 TEST_CASE("single precision") {

@@ -71,7 +71,7 @@ TEST_CASE("components must be different and exist") {
 TEST_CASE("a slice has consecutive components, and puts them back among zeros") {
   auto const s = slant::slice(5, 1, 3);
   CHECK(test::matches(s, rows_of_identity({1, 2, 3}, 5), 0));
-  static_assert(slant::has_accumulate<decltype(s), VectorXd>);
+  static_assert(slant::has_accumulate<decltype(s), VectorXd> && decltype(s)::full_row_rank);
   static_assert(slant::has_adjoint_accumulate<decltype(s), VectorXd>);
   slant::testing::check_operator_laws(s);
   VectorXd x{{1, 2, 3, 4, 5}};

@@ -100,6 +100,9 @@ TEST_CASE("what is refused, in a sentence that names it") {
   CHECK(SLANT_COMPLAINT(std::nan("") * G) == "c: got nan, expected a finite number");
   CHECK(SLANT_COMPLAINT(1e-200 * (1e-200 * S))
             .starts_with("c: got 1e-200 * 1e-200, expected numbers whose product is in the range"));
+  VectorXd const e = VectorXd::Unit(n, 0);
+  CHECK(VectorXd((1e-160 * G) / 1e-10 * ((1e-160 * G) / 1e-10) * e)
+            .isApprox(1e-150 * VectorXd(1e-150 * G * (G * e)), 1e-12));
   CHECK(SLANT_COMPLAINT((1e160 * S) / 1e-160).starts_with("c: got 1e+160 * 1e+160, expected"));
   CHECK(SLANT_COMPLAINT(1e-200 * G / 1e200).starts_with("c: got 1e-200 * 1e-200, expected"));
   CHECK(SLANT_COMPLAINT(S / 0.0) == "c: got 0, expected a number with a finite reciprocal");
@@ -187,6 +190,7 @@ TEST_CASE("describe") {
         "   └─ I   4 × 4, identity, identity_operator\n");
   CHECK(describe(G * Kinv * G).find("│  not self_adjoint: G at the end is not adjoint(G)\n") !=
         std::string::npos);
+  CHECK(describe(G + H + adjoint(G)).find("in the term H, H does not") != std::string::npos);
   CHECK(describe(op<"W">(S + P)).find("└─ S + P   7 × 7, spd") != std::string::npos);
   auto const many = slant::sum(std::vector{slant::distinct(Kc), slant::distinct(Kc)});
   CHECK(describe(many).find("workspace 0 bytes") == std::string::npos);

@@ -107,6 +107,7 @@ TEST_CASE("rows are met relative to their terms, up to rounding") {
   slant::equality_constraints const c(sparse(G.sparseView()), VectorXd{{0.0, 1e-9, 1.0}});
   CHECK(c.meets(VectorXd{{1e-17, 0.0, 1.0}}, 0.0));  // a row whose terms vanish
   CHECK(!c.meets(VectorXd{{1e-8, 0.0, 1.0}}, 1e-7));
+  CHECK(!c.meets(VectorXd{{1e152, 0.0, 1e160}}, 1e-9));
   CHECK(c.meets(VectorXd{{0.0, 1e-12, 1.0}}, 1e-3));
   CHECK(!c.meets(VectorXd{{0.0, 1e-12, 1.0}}, 1e-4));  // small beside ‖x‖, not beside its row
   CHECK(!c.meets(VectorXd{{0.0, std::numeric_limits<double>::quiet_NaN(), 1.0}}, 1e-3));

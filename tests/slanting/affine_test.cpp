@@ -55,7 +55,7 @@ TEST_CASE("archetype operator and vector") {
 TEST_CASE("bad input") {
   MatrixXd const a = MatrixXd::Identity(3, 3);
   CHECK(SLANT_COMPLAINT(slant::affine(a, VectorXd::Ones(2))) ==
-        "c.size(): got 2, expected 3 (the number of rows of the operator)");
+        "c.size(): got 2, expected 3 (the number of values)");
   VectorXd c = VectorXd::Ones(3);
   c[1] = std::numeric_limits<double>::infinity();
   CHECK(SLANT_COMPLAINT(slant::affine(a, c)) == "c[1]: got inf, expected a finite number");

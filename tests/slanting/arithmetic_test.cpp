@@ -52,11 +52,15 @@ TEST_CASE("formulas print themselves and their slanting operators") {
   auto const A = slant::op<"A", slant::self_adjoint, slant::positive_definite>(m);
   auto const F = x - slant::positive_part(2) * (x - 0.5 * (A * x - b));
   std::ostringstream out;
-  out << F << "\n" << F.slant(y) << "\n" << -(2 * A * slant::positive_part(x + b));
+  out << F << "\n"
+      << F.slant(y) << "\n"
+      << -(2 * A * slant::positive_part(x + b)) << "\n"
+      << (A + slant::identity(2)) * slant::positive_part(2);
   CHECK(out.str() ==
         "x ↦ x − max(0, x − 0.5 (A x − c))   (2 → 2)\n"
         "I − diag (I − 0.5 A)   (2 × 2, no laws)\n"
-        "x ↦ −2 A max(0, x + c)   (2 → 2)");
+        "x ↦ −2 A max(0, x + c)   (2 → 2)\n"
+        "x ↦ (A + I) max(0, x)   (2 → 2)");
 }
 
 TEST_CASE("temporaries are owned, variables referenced") {

@@ -113,7 +113,7 @@ TEST_CASE("bad input is named") {
   CHECK(SLANT_COMPLAINT(slant::natural_residual(m.topRows(5), b, set, 1.0)) ==
         "A: got 5 x 6, expected 6 x 6 (the dimension of the set)");
   CHECK(SLANT_COMPLAINT(slant::natural_residual(m, b.head(5), set, 1.0)) ==
-        "b.size(): got 5, expected 6 (the number of rows of the operator)");
+        "b.size(): got 5, expected 6 (the number of values)");
   CHECK(SLANT_COMPLAINT(slant::natural_residual(m, b, set, 0.0)) ==
         "rho: got 0, expected a finite number > 0");
   CHECK_THROWS_AS(static_cast<void>(slant::natural_residual(m, b, set, std::nan(""))),

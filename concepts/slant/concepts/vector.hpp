@@ -29,6 +29,8 @@
 #include <cassert>
 #include <cmath>
 #include <concepts>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -240,6 +242,14 @@ struct like_fn {
   // Apart: g++ 12 moves y out of a function with `if constexpr`, and warns that it is not set.
   template <class P>
   [[nodiscard]] static P sized(index n, index columns) {
+    if constexpr (requires { requires int(P::RowsAtCompileTime) >= 0; }) {
+      constexpr index rows = P::RowsAtCompileTime;
+      if (n != rows) {
+        throw std::invalid_argument("vector: got a type of " + std::to_string(rows) +
+                                    " entries where " + std::to_string(n) +
+                                    " are needed, expected one whose size is not part of its type");
+      }
+    }
     P y;
     y.resize(n, columns);
     return y;

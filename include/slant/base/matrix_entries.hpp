@@ -96,8 +96,8 @@ void for_each_entry(M const& m, F f) {
   return std::string(name) + "(" + std::to_string(i) + ", " + std::to_string(j) + ")";
 }
 
-/// d = diag m. In meshes the diagonal entry of a column stands about where that of
-/// the one before stood in its own; a search from the middle waits for memory several times.
+/// d = diag m. In meshes the diagonal entry of a column stands about where that of the one before
+/// stood in its own; a search from the middle waits for memory several times.
 template <class M, class D>
 void copy_diagonal(M const& m, D&& d) {
   index const n = std::min<index>(m.rows(), m.cols());

@@ -153,7 +153,7 @@ void settle(coulomb_result<V>& r, std::string_view method, V x, double tolerance
     bool const helps = round == 0 || r.error <= S(0.5) * before;
     if (!r.converged() || !helps || round == rounds || done >= steps) {
       if (r.converged()) r.status = slant::status::stalled;
-      if (!(r.error <= before)) {  // the round before was nearer
+      if (before < r.error || (round > 0 && r.error != r.error)) {  // the one before was nearer
         r.λ.swap(last.λ);
         r.u.swap(last.u);
         r.law = last.law;

@@ -232,7 +232,7 @@ class load_stepper {
 
   /// The state of the predicted point, or of the last solution where that turns out to be better.
   void begin() {
-    if (!state_) {
+    if (!has_last_) {
       place(start_);
       return;
     }
@@ -262,6 +262,7 @@ class load_stepper {
   }
 
   void remember() {
+    has_last_ = true;
     if constexpr (predicts) {
       line_.record(state_->x, state_->r, state_->unit, problem_->b());
     } else {
@@ -274,6 +275,7 @@ class load_stepper {
   Rule stop_;
   detail::solution_line<vector_type> line_;
   vector_type start_;
+  bool has_last_ = false;  // a solution, in line_; else steps start from start_
   std::optional<state_type> state_;
   report_type report_{0, status::running, {}, {}, nullptr};
 };

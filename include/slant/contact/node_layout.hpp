@@ -80,6 +80,9 @@ template <class M, class I>
   for (index i = 0; i < x.cols(); ++i) {
     for (index k = 0; first[i] >= 0 && k < x.rows(); ++k) {
       auto const at = std::size_t(index(first[i]) + k);
+      if (layout.node[at] >= 0) {
+        throw bad_input("first", slant::detail::show(index(first[i])), "unknowns of its own").at(i);
+      }
       layout.node[at] = i;
       layout.axis[at] = int(k);
     }

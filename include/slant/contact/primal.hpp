@@ -494,6 +494,7 @@ class primal {
   [[nodiscard]] vector_type const& image_of_offset() const& { return K_offset_; }
   /// The slip bounds become g, one for each contact: φ changes, and qp() with it.
   void set_slip_bounds(vector_type const& g) {
+    slant::detail::check_size("g", g.size(), d_.size(), "one for each contact,");
     φ_.change_bounds([&](auto& c) { c.g = slip_bound(c.number, g[c.number]); });
   }
   /// The gaps become d likewise.

@@ -86,6 +86,11 @@ class stepped_run {
     } catch (bad_input const&) {
       exchange(step);
       throw;
+    } catch (...) {  // half of the step may be in the run
+      exchange(step);
+      certificate_.reset();
+      run_.reset();
+      throw;
     }
   }
 

@@ -55,8 +55,7 @@ struct condensation_options {
     detail::check_positive("bytes_per_second", bytes_per_second);
     detail::check_positive("cached_per_second", cached_per_second);
     detail::check_positive("cache", cache);
-    if (!(most_memory >= 1))
-      throw bad_input("most_memory", detail::show(most_memory), "at least 1");
+    detail::check_option("most_memory", most_memory, most_memory >= 1, "at least 1");
   }
 };
 

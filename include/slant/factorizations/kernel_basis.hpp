@@ -201,7 +201,10 @@ template <class S>
       throw bad_input("K", "an eigenvalue next to the rounding errors of K",
                       "a kernel that can be told from the rest at this precision; give it as R");
     }
-    return detail::orthonormal_basis<S>(scale.asDiagonal() * X.leftCols(found));
+    matrix_type basis = detail::orthonormal_basis<S>(scale.asDiagonal() * X.leftCols(found));
+    if (basis.cols() == found) return basis;
+    throw bad_input("K", "parts whose stiffnesses differ by more than the precision",
+                    "a kernel that can be told from the rest at this precision; give it as R");
   }
 }
 

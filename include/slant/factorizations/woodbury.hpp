@@ -46,16 +46,19 @@ template <operand K, class U, class C>
     slant::apply(k_inverse, column, image);
     v.col(j) = image;
   }
+  auto const factored = [](std::string const& name, dense const& m) {
+    try {
+      return dense_ldlt(m);
+    } catch (bad_input const& complaint) {
+      throw bad_input(name, "a matrix with the complaint (" + std::string(complaint.what()) + ")",
+                      "a symmetric positive definite matrix");
+    }
+  };
   dense s(c.rows(), c.cols());
-  try {
-    dense_ldlt(c).solve(dense(dense::Identity(c.rows(), c.cols())), s);
-  } catch (bad_input const& complaint) {
-    throw bad_input("C", "a matrix with the complaint (" + std::string(complaint.what()) + ")",
-                    "a symmetric positive definite matrix");
-  }
+  factored("C", c).solve(dense(dense::Identity(c.rows(), c.cols())), s);
   dense const projected = columns.transpose() * v;
   s += (projected + projected.transpose()) / 2;
-  dense_ldlt factors(dense((s + s.transpose()) / 2));
+  auto factors = factored("K + U C Uᵀ", (s + s.transpose()) / 2);
   return declare<self_adjoint, positive_definite>(
       difference(std::forward<K>(k_inverse),
                  congruence(matrix(std::move(v)), slant::inverse(std::move(factors)))));

@@ -149,8 +149,9 @@ class atomic_files {
     all([](atomic_file& file) { file.seal(); });
   }
 
-  /// Seals all, then renames all. If one cannot be written no target changes; all temporary files
-  /// are removed. Throws std::system_error.
+  /// Seals all, then renames all. If one cannot be sealed no target changes; where one cannot be
+  /// renamed those before it have changed. All temporary files are removed. Throws
+  /// std::system_error.
   void commit() {
     seal();
     all([](atomic_file& file) { file.commit(); });

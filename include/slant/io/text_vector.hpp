@@ -92,8 +92,9 @@ template <std::floating_point S = double>
   return parse_text_vector<S>(detail::read_text_file(path), detail::printable(path), options);
 }
 
-/// Writes a vector so that reading it gives the same bits. Throws bad_input for NaN (and for
-/// infinity unless allowed), which no reader would accept; std::system_error if there is no room.
+/// Writes a vector so that reading it gives the same bits; an empty file is not read. Throws
+/// bad_input for NaN (and for infinity unless allowed), which no reader would accept;
+/// std::system_error if there is no room.
 template <class Vector>
 void write_text_vector(atomic_file& file, Eigen::MatrixBase<Vector> const& x,
                        text_vector_options const& options = {}) {

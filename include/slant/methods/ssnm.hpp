@@ -174,9 +174,11 @@ void estimated_multipliers(Set const& set, V const& x, V const& r, Z&& z) {
           inside = (block.inequality(point).array() < S(0)).all();
         }
         for (int i = 0; i < k; ++i) {
-          S const slope = gradients.col(i).squaredNorm();
-          S const push = -gradients.col(i).dot(force);
-          multipliers[row + i] = !inside && push > S(0) && slope > S(0) ? S(push / slope) : S(0);
+          S const unit = unit_near(S(gradients.col(i).cwiseAbs().maxCoeff()));
+          Eigen::Matrix<S, n, 1> const normal = gradients.col(i) / unit;
+          S const slope = normal.squaredNorm(), push = -normal.dot(force);
+          bool const pushes = !inside && push > S(0) && slope > S(0);
+          multipliers[row + i] = pushes ? S(push / slope / unit) : S(0);
         }
       });
 }
@@ -197,6 +199,9 @@ class ssnm<QP, LinearSolver> {
   using state_type = ssnm_state<function_type, vector_type, LinearSolver>;
   using options = ssnm_options<scalar>;
 
+  /// F refers to the problem of its own object.
+  ssnm(ssnm const& other) : ssnm(other.qp_, other.solver_, other.options_) {}
+  ssnm& operator=(ssnm const&) = delete;
   /// Throws bad_input for options out of range.
   explicit ssnm(held<QP> qp, LinearSolver solver = {}, options o = {})
       : qp_(std::move(qp)),

@@ -84,8 +84,11 @@ class descent_takeover {
   using method_type = kprgp<std::conditional_t<forgets_types<QP>, QP, QP const&>>;
 
   [[nodiscard]] bool at_work() const { return at_work_; }
-  /// No longer at work: the problem has changed.
-  void leave() { at_work_ = false; }
+  /// No longer at work, and never was: the problem has changed.
+  void leave() {
+    at_work_ = false;
+    count_ = 0;
+  }
   /// How often it had to take over.
   [[nodiscard]] index count() const { return count_; }
   /// The state of KPRGP, once there was need for it.

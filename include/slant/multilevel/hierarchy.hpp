@@ -71,29 +71,22 @@ struct multigrid_options {
   }
   /// Throws bad_input naming the option, its value and what was expected.
   [[gnu::cold]] void validate() const {
-    using detail::show;
-    if (coordinates.size() > 0 && coordinates.rows() != 2 && coordinates.rows() != 3) {
-      throw bad_input("rows of coordinates", show(coordinates.rows()), "2 or 3");
-    }
+    using detail::check_option;
+    check_option("rows of coordinates", index(coordinates.rows()),
+                 coordinates.size() == 0 || coordinates.rows() == 2 || coordinates.rows() == 3,
+                 "2 or 3");
     detail::require_finite_entries("coordinates", coordinates);
-    if (block_size < 0 || block_size > 3) {
-      throw bad_input("block_size", show(block_size), "a number from 0 to 3");
-    }
-    if (coordinates.size() > 0 && block_size != 0 && block_size != coordinates.rows()) {
-      throw bad_input("block_size", show(block_size), "0, or the rows of coordinates");
-    }
-    if (!(strength >= 0 && strength < 1)) {
-      throw bad_input("strength", show(strength), "a number in [0, 1)");
-    }
-    if (!(damping > 0 && damping < 2)) {
-      throw bad_input("damping", show(damping), "a number in (0, 2)");
-    }
-    if (coarsest < 1) throw bad_input("coarsest", show(coarsest), "at least 1");
-    if (levels < 1) throw bad_input("levels", show(levels), "at least 1");
-    if (!(complexity > 1)) throw bad_input("complexity", show(complexity), "a number > 1");
-    if (chebyshev < 0 || chebyshev > 4) {
-      throw bad_input("chebyshev", show(chebyshev), "a degree from 0 to 4");
-    }
+    check_option("block_size", block_size, block_size >= 0 && block_size <= 3,
+                 "a number from 0 to 3");
+    check_option("block_size", block_size,
+                 coordinates.size() == 0 || block_size == 0 || block_size == coordinates.rows(),
+                 "0, or the rows of coordinates");
+    check_option("strength", strength, strength >= 0 && strength < 1, "a number in [0, 1)");
+    check_option("damping", damping, damping > 0 && damping < 2, "a number in (0, 2)");
+    check_option("coarsest", coarsest, coarsest >= 1, "at least 1");
+    check_option("levels", levels, levels >= 1, "at least 1");
+    check_option("complexity", complexity, complexity > 1, "a number > 1");
+    check_option("chebyshev", chebyshev, chebyshev >= 0 && chebyshev <= 4, "a degree from 0 to 4");
   }
 };
 

@@ -36,6 +36,7 @@ class block_diagonal_operator {
 
  public:
   static constexpr law_set laws = detail::block_diagonal_laws({laws_of<A>...});
+  static constexpr bool full_row_rank = (declares_full_row_rank<std::remove_cvref_t<A>> && ...);
 
   explicit block_diagonal_operator(held<A>... parts) : parts_(std::move(parts)...) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {

@@ -89,8 +89,11 @@ struct reason<sum<T...>> {
   static constexpr void add(ascii& out, law l) {
     law const needed = l == law::positive_definite ? law::positive_semidefinite : l;
     bool found = false;
+    constexpr auto partner = partners<T...>();
+    std::size_t i = 0;
     auto const look_at = [&]<class U>(std::type_identity<U>) {
-      if (found || laws_of<U>.contains(needed)) return;
+      bool const paired = partner[i++] < sizeof...(T) && l == law::self_adjoint;
+      if (found || paired || laws_of<U>.contains(needed)) return;
       found = true;
       out.add("in the term ");
       expr::spell_part<U>(out);

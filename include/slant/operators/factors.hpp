@@ -10,8 +10,10 @@
 #include <slant/operators/text.hpp>
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -130,6 +132,14 @@ template <class C, class D>
     using S = common_number<decltype(c.value), decltype(d.value)>;
     number<S, sign_of<C> * sign_of<D>> p{S(S(c.value) * S(d.value)),
                                          S(S(c.divisor) * S(d.divisor))};
+    constexpr S least = std::numeric_limits<S>::min();
+    auto const is_normal = [](S const& s) {
+      using std::abs;
+      return slant::detail::is_finite(s) && (s == S(0) || !(abs(s) < least));
+    };
+    if (!is_normal(p.value) || !is_normal(p.divisor)) {
+      p = {S(S(c.value) / S(c.divisor)) * S(S(d.value) / S(d.divisor)), S(1)};
+    }
     S const quotient = p.value / p.divisor;
     bool const lost = quotient == S(0) && S(c.value) != S(0) && S(d.value) != S(0);
     if (lost || !slant::detail::is_finite(quotient) || !slant::detail::is_finite(p.divisor)) {

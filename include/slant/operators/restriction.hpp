@@ -111,6 +111,8 @@ template <operand A>
 /// y = (x_first, …, x_{first + count − 1}) of n components. Made by slant::slice.
 class slice_operator {
  public:
+  static constexpr bool full_row_rank = true;
+
   /// Throws bad_input unless first, count >= 0 and first + count <= n.
   slice_operator(index n, index first, index count) : n_(n), first_(first), count_(count) {
     if (n < 0) throw bad_input("n", detail::show(n), "a size >= 0");

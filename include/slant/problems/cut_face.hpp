@@ -92,7 +92,7 @@ class cut_face {
     using std::sqrt;
     weights_.noalias() = N_ * x;
     S const n(static_cast<double>(x.size()));
-    return all_told_ && weights_.norm() <= S(16) * detail::epsilon<S>() * sqrt(n) * length;
+    return all_told_ && slant::norm(weights_) <= S(16) * detail::epsilon<S>() * sqrt(n) * length;
   }
   /// y = Π Nᵀ(N Π Nᵀ)⁻¹N x: the shortest step in the face that N maps to N x.
   void lift(vector_type const& x, vector_type& y) const {

@@ -150,7 +150,7 @@ class equality_constraints {
     sparse_type const sizes = G_.cwiseAbs();
     vector_type const terms = sizes * x.cwiseAbs() + unit_values_.cwiseAbs();
     vector_type shared = sizes * vector_type(sizes.transpose() * terms);
-    S const size = x.norm();
+    S const size = slant::norm(x);
     for (index i = 0; i < shared.size(); ++i) {
       if (unit_values_[i] == S(0)) shared[i] += size;
     }

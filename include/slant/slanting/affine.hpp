@@ -6,6 +6,7 @@
 #pragma once
 
 #include <slant/base/vector_algebra.hpp>
+#include <slant/operators/factors.hpp>
 #include <slant/operators/identity.hpp>
 #include <slant/operators/letter.hpp>
 #include <slant/slanting/slanting_part.hpp>
@@ -51,6 +52,7 @@ class linear_map : public slanting_base {
   [[nodiscard]] detail::written write(detail::written const& y) const {
     std::string text;
     expr::print_part(a_.get(), text);
+    if constexpr (expr::is_sum<operator_type>) text = "(" + text + ")";
     return {text + " " + y.as_factor(), false};
   }
 

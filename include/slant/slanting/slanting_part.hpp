@@ -68,7 +68,7 @@ template <class C>
 template <class C>
 void require_offset(std::string_view name, C const& c, index n) {
   require_equal_sizes(std::string(name).append(".size()"), slant::local(c).size(), n,
-                      "the number of rows of the operator");
+                      "the number of values");
   check_finite(name, c);
 }
 

@@ -157,14 +157,11 @@ class primal_run {
 
   /// ‖u‖_K, from x and r.
   [[nodiscard]] S size() const {
-    using std::sqrt;
-    S square = state_.unit * slant::inner_product(state_.x, state_.r) +
-               slant::inner_product(state_.x, qp_.b());
+    auto const force = state_.unit * state_.r + qp_.b();
     if (auto const& s = problem_.offset(); s.size() > 0) {
-      auto const& Ks = problem_.image_of_offset();
-      square += S(2) * slant::inner_product(state_.x, Ks) + slant::inner_product(s, Ks);
+      return energy_norm(state_.x + s, force + problem_.image_of_offset());
     }
-    return square > S(0) ? S(sqrt(square)) : S(0);
+    return energy_norm(state_.x, force);
   }
   /// A step while one is left, unless the energy error is estimated to be at most `goal`: the run
   /// is converged then.

@@ -44,6 +44,17 @@
 
 namespace slant::contact::detail {
 
+/// √(uᵀK u) of u and K u, whose squares may be beyond the range of the numbers.
+template <class X, class Y>
+[[nodiscard]] auto energy_norm(Eigen::MatrixBase<X> const& u, Eigen::MatrixBase<Y> const& Ku) {
+  using S = typename X::Scalar;
+  using std::sqrt;
+  S const length = unit_near(S(u.cwiseAbs().maxCoeff()));
+  S const force = unit_near(S(Ku.cwiseAbs().maxCoeff()));
+  S const square = (u / length).dot(Ku / force);
+  return square > S(0) ? S(sqrt(square) * sqrt(length) * sqrt(force)) : S(0);
+}
+
 /// The solution of the coarse problem, and the z to begin with on the fine level.
 template <class S>
 class nested_start {
@@ -342,12 +353,9 @@ class nested_start {
     auto const method = [&] { return envelope_newton{qp, M, newton}; };
     auto state = coarser.found() ? method().start_on_face([&](S const& ρ) { return coarser.at(ρ); })
                                  : method().start(vector_type::Zero(f.size()));
-    using std::sqrt;
     for (index k = 0; k < 40 && state.status == status::running; ++k) {
-      S const square =
-          state.unit * slant::inner_product(state.x, state.r) + slant::inner_product(state.x, f);
-      newton.energy_goal = std::max<S>(square > S(0) ? S(S(0.01) * sqrt(square)) : S(0),
-                                       std::numeric_limits<S>::min());
+      S const size = energy_norm(state.x, state.unit * state.r + f);
+      newton.energy_goal = std::max<S>(S(0.01) * size, std::numeric_limits<S>::min());
       method().step(state);
     }
     coarse_ = state.x;

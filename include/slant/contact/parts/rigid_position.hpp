@@ -48,14 +48,14 @@ namespace slant::contact::detail {
 template <class S, class V>
 [[nodiscard]] bool falls_for_ever(data<S> const& c, V const& w) {
   using vector_type = Eigen::VectorX<S>;
-  S const size = w.norm(), load = c.f.norm();
+  S const size = w.stableNorm(), load = c.f.stableNorm();
   vector_type const normal = c.N * w, slip = c.T * w;
   index const k = c.tangents();
   S fall = c.f.dot(w), opposed(0);
   for (index i = 0; i < c.nodes(); ++i) {
     if (slant::detail::is_finite(c.d[i])) opposed = std::max<S>(opposed, normal[i]);
     if (k == 0) continue;
-    S const length = slip.segment(k * i, k).norm();
+    S const length = slip.segment(k * i, k).stableNorm();
     if (slant::detail::is_finite(c.g[i]))
       fall -= c.g[i] * length;
     else
@@ -89,7 +89,7 @@ template <class S>
   using dense_type = Eigen::MatrixX<S>;
   Eigen::SparseMatrix<S> const Gt = stacked_constraints(c) * R, G = Gt.transpose();
   vector_type e = R.transpose() * c.f;
-  S const unit = e.norm();
+  S const unit = e.stableNorm();
   if (!(unit > S(0))) return R * e;
   e /= unit;
   dense_type const gram = dense_type(G * Gt);
@@ -137,7 +137,7 @@ template <class S>
 template <class S>
 void conclude_unbounded(Eigen::SparseMatrix<S> const& K, data<S> const& c,
                         node_layout<S> const& layout, Eigen::VectorX<S> w, solution<S>& r) {
-  S const size = w.norm();
+  S const size = w.stableNorm();
   if (size > S(0) && slant::detail::is_finite(size)) {
     w /= size;
     if (falls_for_ever(c, w)) {

@@ -192,7 +192,7 @@ class spring_supports {
                            (sum_.status == status::iteration_limit && budget == left);
       // The rigid part of the motion, if it goes on like that.
       moved = R_ * vector_type(R_.transpose() * moved);
-      S const length = moved.norm();
+      S const length = moved.stableNorm();
       if (!is_over && step > 0 && length > S(0) && slant::detail::is_finite(length) &&
           falls_for_ever(*original_, vector_type(moved / length))) {
         // The shortest such motion has the simplest name.
@@ -327,9 +327,9 @@ class spring_supports {
       // K u has rounding errors of ε ‖K‖ ‖u‖, however far the bodies have moved.
       auto const& c = *original_;
       vector_type const pressures = c.N.transpose() * sum_.multipliers.head(c.nodes());
-      S const force = std::max<S>(c.f.norm(), pressures.norm());
+      S const force = std::max<S>(c.f.stableNorm(), pressures.stableNorm());
       S const rounding = S(64) * std::numeric_limits<S>::epsilon() *
-                         slant::detail::largest_row_sum(*K_) * sum_.u.norm();
+                         slant::detail::largest_row_sum(*K_) * sum_.u.stableNorm();
       S const allowed = S(1000) * options_.tolerance + (force > S(0) ? S(rounding / force) : S(0));
       sum_.reason = known + ", at most " + slant::detail::show(options_.tolerance);
       if (residual <= allowed) return;
