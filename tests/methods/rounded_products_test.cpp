@@ -25,7 +25,7 @@ struct imprecise {
     return twin;
   }
 };
-static_assert(slant::has_rounded<imprecise, VectorXd>);
+static_assert(slant::has_rounded<decltype(slant::op<"A">(imprecise{})), VectorXd>);
 
 TEST_CASE("a method with rounded products finds the solution of the exact ones") {
   index const n = 30;

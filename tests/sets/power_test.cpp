@@ -154,6 +154,8 @@ TEST_CASE("power: of a function it is the sum, in both layouts, and allocates on
   CHECK(three.value(z) == sum.value(z));
   CHECK(three.conjugate(v) == sum.conjugate(v));
   CHECK(three.conjugate(z) == infinity);
+  CHECK_THROWS_AS(static_cast<void>(three.slant(1.0, vec<>(z.head(5)))), slant::bad_input);
+  CHECK_THROWS_AS(static_cast<void>(sum.slant(1.0, vec<>(z.head(5)))), slant::bad_input);
   for (int i = 0; i < 6; ++i) mixed[i] = z[i / 3 + 2 * (i % 3)];
   planes.prox(0.5, mixed, mixed);
   for (int i = 0; i < 6; ++i) CHECK(mixed[i] == x[i / 3 + 2 * (i % 3)]);

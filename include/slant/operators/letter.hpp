@@ -256,6 +256,17 @@ class letter : public expression_base {
   void diagonal(D& d) const {
     get().diagonal(d);
   }
+  template <class D>
+    requires(may_have_diagonal<target, D> && !has_diagonal<target, D>)
+  [[nodiscard]] bool diagonal_if_known(D& d) const {
+    return get().diagonal_if_known(d);
+  }
+  /// The rounded twin, which bears no name.
+  [[nodiscard]] auto rounded() const
+    requires(!is_adjoint && requires(target const& a) { a.rounded(); })
+  {
+    return get().rounded();
+  }
   template <class Y>
     requires(is_adjoint ? has_adjoint<target, plain_t<Y>> : has_columns<target, Y>)
   void columns(index first, Y& y) const {

@@ -264,6 +264,7 @@ class function_power : public detail::equal_parts<Block, Layout, Blocks> {
   template <class S, class Z>
     requires has_slant<step_t<Block const&, S>, vector_type>
   void slant(S const& ρ, Z const& z, block_diagonal_slant<scalar_t<Z>, n, Layout>& g) const {
+    detail::check_rows("z", z, this->size(), "the dimension of the function");
     for (index i = 0; i < blocks_.size(); ++i) {
       g.assign(i, blocks_[i].slant(ρ, this->at(i).value(z)));
     }

@@ -69,12 +69,14 @@ class function_sum : public detail::part_sequence<Parts...> {
   /// The slanting operator of the proximal map at z, one part after the other.
   template <class S, class Z>
   [[nodiscard]] auto slant(S const& ρ, Z const& z) const {
+    detail::check_rows("z", z, size(), "the dimension of the function");
     return this->slants_at(
         z, [&](auto const& part) -> decltype(auto) { return slant::at_step(part, ρ); });
   }
   /// The same into an operator made earlier.
   template <class S, class Z, class... Slants>
   void slant(S const& ρ, Z const& z, direct_sum_slant<Slants...>& g) const {
+    detail::check_rows("z", z, size(), "the dimension of the function");
     this->renew_slants(z, g,
                        [&](auto const& part) -> decltype(auto) { return slant::at_step(part, ρ); });
   }

@@ -80,6 +80,7 @@ class blockwise_map
   template <class Y>
     requires std::same_as<scalar_t<Y>, scalar>
   void slant(Y const& y, slant_type& g) const {
+    detail::check_rows("y", y, cols(), "cols() of the function");
     for (index i = 0; i < block_count(); ++i) {
       g.assign(i, block(i).slant(this->at(i).value(slant::local(y))));
     }
