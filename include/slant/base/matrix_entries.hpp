@@ -101,6 +101,7 @@ void for_each_entry(M const& m, F f) {
 template <class M, class D>
 void copy_diagonal(M const& m, D&& d) {
   index const n = std::min<index>(m.rows(), m.cols());
+  if constexpr (requires { d.resize(n); }) d.resize(n);
   if constexpr (is_compressed_matrix<M>) {
     auto const* const inner = m.innerIndexPtr();
     std::ptrdiff_t place = 0;

@@ -80,6 +80,8 @@ class stepped_run {
       if (certificate_) {
         go_on(step);
       } else {
+        // After a step that was cut off: springs begin where the new run does.
+        if (springs_.size() > S(0)) springs_.restart(vector_type::Zero(c_.f.size()));
         run_.emplace(springs_.held(), c_, layout_, multigrid_, most_, w_);
         certificate_.emplace(run_->qp(), run_->levels());
       }

@@ -93,9 +93,9 @@ template <std::floating_point S = double>
   return parse_friction_problem<S>({W, q, mu}, folder, options);
 }
 
-/// Writes a problem so that reading it gives the same bits; one without contacts is not read. Throws
-/// bad_input for one that is not valid or a folder that is not there, std::system_error if there is
-/// no room.
+/// Writes a problem so that reading it gives the same bits; one without contacts is not read.
+/// Throws bad_input for one that is not valid or a folder that is not there, std::system_error if
+/// there is no room.
 template <std::floating_point S>
 void write_friction_problem(std::filesystem::path const& folder,
                             contact::friction_problem<S> const& p) {

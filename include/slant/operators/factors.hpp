@@ -132,10 +132,9 @@ template <class C, class D>
     using S = common_number<decltype(c.value), decltype(d.value)>;
     number<S, sign_of<C> * sign_of<D>> p{S(S(c.value) * S(d.value)),
                                          S(S(c.divisor) * S(d.divisor))};
-    constexpr S least = std::numeric_limits<S>::min();
     auto const is_normal = [](S const& s) {
       using std::abs;
-      return slant::detail::is_finite(s) && (s == S(0) || !(abs(s) < least));
+      return slant::detail::is_finite(s) && !(abs(s) < std::numeric_limits<S>::min());
     };
     if (!is_normal(p.value) || !is_normal(p.divisor)) {
       p = {S(S(c.value) / S(c.divisor)) * S(S(d.value) / S(d.divisor)), S(1)};
