@@ -162,7 +162,7 @@ template <class A, class V>
   }
   S const θ = detail::largest_tridiagonal_eigenvalue(diagonal, off_diagonal);
   auto const k = index(diagonal.size());
-  S const rounding = S(1) + S(4 * n + 16) * ε;
+  S const rounding = S(1) + S(4 * std::max<index>(n, 4)) * ε;
   if (θ < S(0)) throw bad_input("A", detail::show(θ), "a positive semidefinite operator");
   S const θ_min =
       std::max<S>(detail::smallest_tridiagonal_eigenvalue(diagonal, off_diagonal), S(0));
