@@ -5,17 +5,20 @@
 //
 //     A d = 0,   rᵀd < 0,   x + t d ∈ Λ for all t ≥ 0.
 //
-// In floating point: ‖A d‖ is below its own rounding error, the slope bᵀd above its. A curvature
+// In floating point: A d is below its own rounding error, the slope bᵀd above its. A curvature
 // dᵀA d below its rounding error is a reason to look, no proof: it only bounds ‖A d‖ by √ε σ ‖d‖.
 #pragma once
 
 #include <slant/base/scaling.hpp>
 #include <slant/base/vector_algebra.hpp>
+#include <slant/concepts/capabilities.hpp>
 #include <slant/concepts/linear_operator.hpp>
 #include <slant/concepts/vector.hpp>
 #include <slant/krylov/flat_direction.hpp>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace slant {
 
@@ -41,25 +44,57 @@ template <bool Definite, class Directions, class S>
   }
 }
 
-/// ‖A d‖ up to which d counts as a direction of the kernel: rounding errors of the product.
-template <class V, class S>
-[[nodiscard]] S kernel_image(V const& d, S σ) {
-  using std::sqrt;
-  return S(32) * detail::epsilon<S>() * sqrt(S(slant::global_size(d))) * norm(d) * σ;
-}
+/// What rounding may leave of A d, as a whole and row by row: |aᵢⱼ| ≤ √(aᵢᵢ aⱼⱼ), so that of (A d)ᵢ
+/// is some ε √aᵢᵢ Σⱼ √aⱼⱼ |dⱼ|. Rows are asked where A gives its diagonal, because unknowns in units
+/// of their own have some far below σ. Allocates where that is first of interest, next to a proof.
+template <class A, class V>
+class image_rounding {
+ public:
+  using scalar = scalar_t<V>;
+
+  image_rounding(A const& a, scalar σ) : a_(a), σ_(std::move(σ)) {}
+
+  /// Whether the image of d is no more than a share of it.
+  [[nodiscard]] bool covers(V const& image, V const& d, scalar const& share = scalar(1)) {
+    using std::abs, std::sqrt;
+    scalar const room =
+        share * scalar(32) * detail::epsilon<scalar>() * sqrt(scalar(slant::global_size(d)));
+    if (!(norm(image) <= room * norm(d) * σ_)) return false;
+    if (!asked_) ask(d);
+    if (!known_) return true;
+    auto const root = slant::local(*root_).array();
+    scalar const sum = slant::total(d, scalar((root * slant::local(d).array().abs()).sum()));
+    return slant::everywhere(d, (slant::local(image).array().abs() <= room * sum * root).all());
+  }
+
+ private:
+  void ask(V const& d) {
+    asked_ = true;
+    root_ = like(d, slant::local(d).size());
+    known_ = slant::diagonal_if_known(a_, *root_);
+    slant::local(*root_) = slant::local(*root_).cwiseMax(scalar(0)).cwiseSqrt();
+  }
+
+  A const& a_;
+  scalar σ_;
+  std::optional<V> root_{};  // √diag(A)
+  bool asked_ = false, known_ = false;
+};
 
 /// Is q unbounded along d, with the image A d?
 ///
-///     x + t d ∈ Λ for all t ≥ 0,   ‖A d‖ at rounding level,   bᵀd > 0 beyond its rounding errors.
+///     x + t d ∈ Λ for all t ≥ 0,   A d at rounding level,   bᵀd > 0 beyond its rounding errors.
 ///
 /// Where A d = 0 the slope is −bᵀd, whatever of x is in r.
-template <class QP, class State, class V, class S>
+template <class QP, class State, class V, class A>
 [[nodiscard, gnu::cold]] bool is_endless_descent(QP const& qp, State const& s, V const& d,
-                                                 V const& image, S σ) {
+                                                 V const& image, image_rounding<A, V>& rounding) {
+  using S = scalar_t<V>;
   S const slope = inner_product(d, qp.b()) / s.unit;
-  return norm(image) <= kernel_image(d, σ) && is_descent(slope, d, S(4) * s.size_of_b) &&
+  return is_descent(slope, d, S(4) * s.size_of_b) &&
          !(slant::minimum(s.x, qp.set().step_to_boundary(slant::local(s.x), slant::local(d))) <
-           detail::infinity<S>());
+           detail::infinity<S>()) &&
+         rounding.covers(image, d);
 }
 
 /// Takes the part in range(A) out of a direction of descent d that does not leave Λ, and is flat or
@@ -79,11 +114,11 @@ template <class QP, class State, class Keep, class V, class S>
   S const size = unit_near(first), least = first / size / S(128);
   vectors::scale(S(1) / size, d);
   vectors::scale(S(1) / size, image);
+  image_rounding<typename QP::operator_type, V> rounding(qp.a(), σ);
   S curvature(0);
   for (index k = 0; k < steps && norm(d) > least; ++k) {
     keep(image, g);
-    S const residual = norm(g);
-    if (!(residual > kernel_image(d, σ) / S(8))) break;
+    if (rounding.covers(g, d, S(1) / S(8))) break;
     if (k == 0) {
       vectors::copy(g, w);
     } else {
@@ -106,7 +141,7 @@ template <class QP, class State, class Keep, class V, class S>
   }
   slant::apply(qp.a(), d, image, s.a_workspace);
   ++s.work.operator_applications;
-  return norm(d) > least && is_endless_descent(qp, s, d, image, σ);
+  return norm(d) > least && is_endless_descent(qp, s, d, image, rounding);
 }
 /// The same on the face of a method of conjugate gradients, of d = −s.directions.p, which stays that.
 /// Scratch: trial, projected, reduced, directions.Ap.
@@ -156,7 +191,8 @@ class recession_watch {
         vectors::scale(S(1) / unit_near(norm(s.trial)), s.trial);
         slant::apply(qp.a(), s.trial, s.φ, s.a_workspace);
         ++s.work.operator_applications;
-        yes = is_endless_descent(qp, s, s.trial, s.φ, s.σ);
+        image_rounding<typename QP::operator_type, V> rounding(qp.a(), s.σ);
+        yes = is_endless_descent(qp, s, s.trial, s.φ, rounding);
         next_ = 2 * seen_;
       }
     }
