@@ -98,13 +98,12 @@ class constrained_certificate : detail::certificate_preconditioner<typename QP::
     slant::apply(qp_->a(), gradient_, image_, a_workspace_);
     ++applications_;
     gradient_ = image_ + image_of_nearest_;
-    energy_error<scalar> e;
-    e.size = detail::root_of_product(point_, gradient_);
+    scalar const size = detail::root_of_product(point_, gradient_);
     slant::apply(constraints_->kernel_projector(), image_, gradient_, of_P_);
     gradient_ += ν - load_;
-    e.bound = (detail::is_one_point(*constraints_) ? scalar(0) : estimate()) + of_offset() +
-              detail::rounding_of(x_, stiffness_);
-    return e;
+    scalar const along = detail::is_one_point(*constraints_) ? scalar(0) : estimate();
+    return estimated_error<scalar>(declares_positive_definite<typename QP::operator_type>, size,
+                                   along + of_offset(), detail::rounding_of(x_, stiffness_));
   }
   /// Applications of A so far.
   [[nodiscard]] index applications() const { return applications_ + newton_.applications(); }

@@ -76,30 +76,27 @@ class energy_certificate : detail::certificate_preconditioner<typename QP::vecto
     }
     slant::apply(qp_->a(), x_, g_, a_workspace_);
     ++applications_;
-    energy_error<scalar> e;
-    e.size = detail::root_of_product(x_, g_);
+    scalar const size = detail::root_of_product(x_, g_);
     vectors::subtract(qp_->b(), g_);
-    if (dominates_) {
-      auto const balanced = balance(function_of(*qp_), x_, g_, stiffness_, g_);
-      slant::apply(m_, g_, norm_.z, norm_.of_m);
-      e.bound =
-          error_bound_of_root<scalar>(detail::root_of_product(g_, norm_.z), balanced.root_of_gap);
-    } else {
-      e.bound = estimate() + detail::rounding_of(x_, stiffness_);
+    if (!dominates_) {
+      return estimated_error<scalar>(is_definite, size, estimate(),
+                                     detail::rounding_of(x_, stiffness_));
     }
-    return e;
+    auto const balanced = balance(function_of(*qp_), x_, g_, stiffness_, g_);
+    slant::apply(m_, g_, norm_.z, norm_.of_m);
+    return {.bound = error_bound_of_root<scalar>(detail::root_of_product(g_, norm_.z),
+                                                 balanced.root_of_gap),
+            .size = size};
   }
   /// Applications of A so far.
   [[nodiscard]] index applications() const { return applications_ + newton_.applications(); }
 
  private:
+  static constexpr bool is_definite = declares_positive_definite<typename QP::operator_type>;
   /// With functions only for an A that may be singular, whose ‖·‖_{A⁻¹} is infinite off its range:
   /// the other estimate is cheaper.
-  static constexpr bool has_faces =
-      (quadratic_program<QP> ||
-       !declares_positive_definite<
-           typename QP::operator_type>)&&has_block_slants<typename QP::set_type,
-                                                          local_t<vector_type>>;
+  static constexpr bool has_faces = (quadratic_program<QP> || !is_definite) &&
+                                    has_block_slants<typename QP::set_type, local_t<vector_type>>;
 
   energy_certificate(QP const& qp, M const& m, bool dominates)
       : base(m, qp.b()),
@@ -125,7 +122,7 @@ class energy_certificate : detail::certificate_preconditioner<typename QP::vecto
 
   /// What A x − b was computed from, for an A that may be singular.
   [[nodiscard]] std::optional<gradient_size<scalar>> sizes() const {
-    if constexpr (declares_positive_definite<typename QP::operator_type>) return {};
+    if constexpr (is_definite) return {};
     return gradient_size<scalar>{slant::norm(x_), slant::norm(qp_->b())};
   }
 

@@ -85,13 +85,17 @@ class image_rounding {
 ///
 ///     x + t d ∈ Λ for all t ≥ 0,   A d at rounding level,   bᵀd > 0 beyond its rounding errors.
 ///
-/// Where A d = 0 the slope is −bᵀd, whatever of x is in r.
+/// Where A d = 0 the slope is −bᵀd, whatever of x is in r. With a solution x* far away bᵀd = x*ᵀA d,
+/// which rounding of d may leave of terms that cancel: all but ∛ε of them must not.
 template <class QP, class State, class V, class A>
 [[nodiscard, gnu::cold]] bool is_endless_descent(QP const& qp, State const& s, V const& d,
                                                  V const& image, image_rounding<A, V>& rounding) {
   using S = scalar_t<V>;
+  using std::cbrt;
   S const slope = inner_product(d, qp.b()) / s.unit;
-  return is_descent(slope, d, S(4) * s.size_of_b) &&
+  S const terms = slant::total(
+      d, S((slant::local(d).array() * (slant::local(qp.b()).array() / s.unit)).abs().sum()));
+  return is_descent(slope, d, S(4) * s.size_of_b) && slope > cbrt(detail::epsilon<S>()) * terms &&
          !(slant::minimum(s.x, qp.set().step_to_boundary(slant::local(s.x), slant::local(d))) <
            detail::infinity<S>()) &&
          rounding.covers(image, d);
