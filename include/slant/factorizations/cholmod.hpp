@@ -65,6 +65,7 @@ class cholmod_state {
   view.p = const_cast<int*>(m.outerIndexPtr());  // CHOLMOD does not write to its input
   view.i = const_cast<int*>(m.innerIndexPtr());
   view.x = const_cast<double*>(m.valuePtr());
+  if (view.nzmax == 0) view.i = view.x = view.p;  // null is an error, even where nothing is read
   view.stype = -1;
   view.itype = CHOLMOD_INT;
   view.xtype = CHOLMOD_REAL;

@@ -231,14 +231,14 @@ struct mean_diagonal_options {
   }
 };
 
-/// Mean of diag(A), for vectors like `prototype`. Throws bad_input if it is not finite or negative.
+namespace detail {
+
+/// Mean of diag(A), which rounding may leave below 0.
 template <class A, class V>
-  requires psd_operator<A, V>
-[[nodiscard]] auto mean_diagonal(A const& a, V const& prototype,
-                                 mean_diagonal_options const& options = {})
+[[nodiscard]] auto estimated_mean_diagonal(A const& a, V const& prototype,
+                                           mean_diagonal_options const& options)
     -> diagonal_mean<scalar_t<V>> {
   using S = scalar_t<V>;
-  options.validate();
   index const here = slant::local(prototype).size(), n = slant::global_size(prototype);
   if (n == 0) return {S(0), 0};
   V v = like(prototype, here), image = like(prototype, here);
@@ -249,7 +249,7 @@ template <class A, class V>
     sum = inner_product(v, image);
   } else {
     auto temporaries = workspace(a, prototype);
-    detail::random_bits bits(options.seed);
+    random_bits bits(options.seed);
     for (; applications < options.samples; ++applications) {
       for (index i = 0; i < here; ++i) {
         slant::local(v).coeffRef(i) = bits.coin() ? S(1) : S(-1);
@@ -258,11 +258,28 @@ template <class A, class V>
       sum += inner_product(v, image);
     }
   }
-  S const mean = sum / S(applications > 0 ? applications * n : n);
-  if (!(mean >= S(0)) || !detail::is_finite(mean)) {
-    throw bad_input("A", "mean of the diagonal " + detail::show(mean), "a finite number >= 0");
-  }
-  return {mean, applications};
+  return {sum / S(applications > 0 ? applications * n : n), applications};
+}
+
+/// Throws bad_input for a mean that is not finite or below −noise.
+template <class S>
+void check_mean_diagonal(S const& mean, S const& noise = S(0)) {
+  if (mean >= -noise && is_finite(mean)) return;
+  throw bad_input("A", "mean of the diagonal " + show(mean), "a finite number >= 0");
+}
+
+}  // namespace detail
+
+/// Mean of diag(A), for vectors like `prototype`. Throws bad_input if it is not finite or negative.
+template <class A, class V>
+  requires psd_operator<A, V>
+[[nodiscard]] auto mean_diagonal(A const& a, V const& prototype,
+                                 mean_diagonal_options const& options = {})
+    -> diagonal_mean<scalar_t<V>> {
+  options.validate();
+  auto const mean = detail::estimated_mean_diagonal(a, prototype, options);
+  detail::check_mean_diagonal(mean.value);
+  return mean;
 }
 
 /// Result of mean_step.

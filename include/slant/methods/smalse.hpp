@@ -170,7 +170,7 @@ template <class Set, class V>
 [[nodiscard]] bool separates(Set const& set, V const& x, V const& w, V const& nearest, V& y,
                              V& projected) {
   using S = scalar_t<V>;
-  S const distance = norm(w);
+  S const distance = norm(w), rounding = S(256) * detail::epsilon<S>() * (norm(x) + norm(nearest));
   S last = detail::infinity<S>();
   S t(1);
   for (int k = 0; k <= 40; ++k, t *= S(2)) {
@@ -178,9 +178,8 @@ template <class Set, class V>
     slant::project(set, slant::local(y), slant::local(projected));
     vectors::difference(projected, nearest, y);
     vectors::scale(S(1) / distance, y);
-    S const size = distance * norm(y);
-    S const height = inner_product(w, y);
-    if (!(height > S(256) * detail::epsilon<S>() * size)) return false;
+    // w = Q x − x̄ is a difference.
+    if (!(inner_product(w, y) > rounding * norm(y))) return false;
     vectors::difference(projected, x, y);
     S const moved = norm(y);
     if (moved == last) return true;
@@ -374,8 +373,11 @@ class smalse<QP, C> {
     s.reduced_gradient_norm = s.inner.reduced_gradient_norm;
     bool const solved = s.reduced_gradient_norm == scalar(0) && s.feasibility_norm == scalar(0);
     if (solved) s.status = status::converged;
-    if (s.inner.status == status::unbounded || s.inner.status == status::breakdown) {
-      s.status = s.inner.status;
+    if (s.inner.status == status::unbounded) {
+      s.infeasible = detail::is_apart(qp_.get().set(), constraints_.get(), s.x);
+      s.status = s.infeasible ? status::stalled : status::unbounded;
+    } else if (s.inner.status == status::breakdown) {
+      s.status = status::breakdown;
     }
     if (!detail::is_finite(s.feasibility_norm)) s.status = status::breakdown;
   }

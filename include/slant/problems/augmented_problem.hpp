@@ -90,9 +90,11 @@ template <class A, class C, class V>
   using S = scalar_t<V>;
   diagonal_mean<S> mean{size_on_ones(a, prototype), 1};
   if (is_one_point(c)) return mean;
-  auto const of_a = mean_diagonal(projected_hessian(a, c), prototype);
+  auto const of_a = estimated_mean_diagonal(projected_hessian(a, c), prototype, {});
   mean.applications += of_a.applications;
-  if (of_a.value > S(32) * detail::epsilon<S>() * mean.value) mean.value = of_a.value;
+  S const noise = S(32) * detail::epsilon<S>() * mean.value;
+  check_mean_diagonal(of_a.value, noise);
+  if (of_a.value > noise) mean.value = of_a.value;
   return mean;
 }
 

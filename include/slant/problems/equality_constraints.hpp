@@ -239,7 +239,10 @@ class equality_constraints {
       }
       S const implied = combination.dot(unit_values_);
       S const terms = abs(unit_e[i]) + combination.cwiseAbs().dot(unit_values_.cwiseAbs());
-      S const allowed = rounding * terms + error[i] + combination.cwiseAbs().dot(kept_error);
+      // A row that has no part in it has one of rounding.
+      S const of_others = S(64) * detail::epsilon<S>() * combination.norm() * unit_values_.norm();
+      S const allowed =
+          rounding * terms + of_others + error[i] + combination.cwiseAbs().dot(kept_error);
       if (abs(implied - unit_e[i]) <= allowed) continue;
       throw bad_input(
           "e", detail::show(S(e[i])),
