@@ -76,8 +76,8 @@ class constrained_certificate : detail::certificate_preconditioner<typename QP::
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
     slant::apply(qp.a(), constraints.nearest(), image_of_nearest_, a_workspace_);
     auto const mean = detail::projected_mean_diagonal(qp.a(), constraints, qp.b());
-    applications_ +=
-        2 + mean.applications + this->learn(qp.a(), mean.value, x_, gradient_, a_workspace_);
+    applications_ += 2 + mean.applications +
+                     this->learn(qp.a(), mean.value, qp.b(), x_, gradient_, a_workspace_);
   }
   constrained_certificate(QP const&&, C const&) = delete;
   constrained_certificate(QP const&&, C const&, M const&) = delete;
@@ -103,7 +103,8 @@ class constrained_certificate : detail::certificate_preconditioner<typename QP::
     gradient_ += ν - load_;
     scalar const along = detail::is_one_point(*constraints_) ? scalar(0) : estimate();
     return estimated_error<scalar>(declares_positive_definite<typename QP::operator_type>, size,
-                                   along + of_offset(), detail::rounding_of(x_, stiffness_));
+                                   this->size_of_load_, along + of_offset(),
+                                   detail::rounding_of(x_, stiffness_));
   }
   /// Applications of A so far.
   [[nodiscard]] index applications() const { return applications_ + newton_.applications(); }

@@ -205,17 +205,21 @@ class certificate_preconditioner {
       return (m_);
     }
   }
-  /// From the mean of the diagonal; x and g are scratch. Returns the applications of A.
+  /// From the mean of the diagonal and b; x and g are scratch. Returns the applications of A.
   template <class A, class W>
-  index learn(A const& a, scalar const& mean, V& x, V& g, W& w) {
+  index learn(A const& a, scalar const& mean, V const& b, V& x, V& g, W& w) {
     typical_ = mean > scalar(0) ? scalar(scalar(1) / mean) : scalar(1);
-    return set_stiffness<is_plain>(a, typical_, stiffness_, x, g, w);
+    index const applications = set_stiffness<is_plain>(a, typical_, stiffness_, x, g, w);
+    vectors::multiply(stiffness_, b, g);
+    size_of_load_ = root_of_product(b, g);
+    return applications;
   }
 
   M m_;
-  V stiffness_;        // of the size of diag(A)⁻¹
-  scalar typical_{1};  // 1/mean(diag A)
-  index most_;         // iterations
+  V stiffness_;             // of the size of diag(A)⁻¹
+  scalar typical_{1};       // 1/mean(diag A)
+  scalar size_of_load_{0};  // √(Σ bᵢ²/aᵢᵢ)
+  index most_;              // iterations
 };
 
 }  // namespace slant::detail

@@ -50,7 +50,8 @@ dominating_inverse<M> dominates_inverse(M const&&) = delete;
 template <class QP, class M = identity_operator>
 class energy_certificate : detail::certificate_preconditioner<typename QP::vector_type, M> {
   using base = detail::certificate_preconditioner<typename QP::vector_type, M>;
-  using base::m_, base::stiffness_, base::typical_, base::most_, base::preconditioner;
+  using base::m_, base::stiffness_, base::typical_, base::size_of_load_, base::most_,
+      base::preconditioner;
   using typename base::preconditioner_type;
 
  public:
@@ -79,7 +80,7 @@ class energy_certificate : detail::certificate_preconditioner<typename QP::vecto
     scalar const size = detail::root_of_product(x_, g_);
     vectors::subtract(qp_->b(), g_);
     if (!dominates_) {
-      return estimated_error<scalar>(is_definite, size, estimate(),
+      return estimated_error<scalar>(is_definite, size, size_of_load_, estimate(),
                                      detail::rounding_of(x_, stiffness_));
     }
     auto const balanced = balance(function_of(*qp_), x_, g_, stiffness_, g_);
@@ -107,7 +108,8 @@ class energy_certificate : detail::certificate_preconditioner<typename QP::vecto
         newton_(qp, preconditioner()) {
     detail::check_size("rows of M", index(m.rows()), qp.size(), "the size of the problem,");
     auto const mean = mean_diagonal(qp.a(), qp.b());
-    applications_ += mean.applications + this->learn(qp.a(), mean.value, x_, g_, a_workspace_);
+    applications_ +=
+        mean.applications + this->learn(qp.a(), mean.value, qp.b(), x_, g_, a_workspace_);
   }
 
   /// Of a set without faces nothing but the gap and the gradient is known.

@@ -308,16 +308,17 @@ struct energy_error {
 };
 
 /// The error of x from an estimate of it and what rounding the entries of x is worth in the energy
-/// norm, ε/2 √(Σ aᵢᵢ xᵢ²). Unless A is `definite` x may be far out in its kernel, where xᵀA x and
-/// what is relative to it are rounding errors. A point without energy that is no further from the
-/// solution than its rounding is the solution.
+/// norm, ε/2 √(Σ aᵢᵢ xᵢ²); load = √(Σ bᵢ²/aᵢᵢ). Unless A is `definite` x may be far out in its
+/// kernel, where xᵀA x and what is relative to it are rounding errors: nothing is known then. A
+/// point without energy that is no further from the solution than its rounding is the solution.
 template <class S>
-[[nodiscard]] energy_error<S> estimated_error(bool definite, S const& size, S const& estimate,
-                                              S const& rounding) {
+[[nodiscard]] energy_error<S> estimated_error(bool definite, S const& size, S const& load,
+                                              S const& estimate, S const& rounding) {
   using std::sqrt;
-  bool const is_noise = !definite && size <= S(8) / sqrt(detail::epsilon<S>()) * rounding;
+  S const beside = size > S(0) ? size : load;
+  bool const is_far = beside > S(0) && S(8) / sqrt(detail::epsilon<S>()) * rounding >= beside;
+  if (!definite && is_far) return {.size = size};
   if (size == S(0) && estimate <= rounding) return {.bound = S(0)};
-  if (size > S(0) && is_noise) return {.size = size};
   return {.bound = S(estimate + rounding), .size = size};
 }
 

@@ -127,7 +127,8 @@ template <class V, class S, class Make, class Certificate>
     }
     auto now = certificate(state.x);
     // No relative error of a point without energy is finite but 0, and that is what it is here.
-    if (now.size == S(0) && end.how == status::converged && state.reduced_gradient_norm == S(0)) {
+    if (now.size == S(0) && is_finite(now.bound) && end.how == status::converged &&
+        state.reduced_gradient_norm == S(0)) {
       now.bound = S(0);
     }
     S const error = now.relative();

@@ -93,8 +93,13 @@ template <class A, class C, class V>
   auto const of_a = estimated_mean_diagonal(projected_hessian(a, c), prototype, {});
   mean.applications += of_a.applications;
   S const noise = S(32) * detail::epsilon<S>() * mean.value;
-  check_mean_diagonal(of_a.value, noise);
-  if (of_a.value > noise) mean.value = of_a.value;
+  if (of_a.value > noise) {
+    mean.value = of_a.value;
+  } else if (!(of_a.value >= -noise)) {  // ones may be in the kernel of A
+    auto const whole = mean_diagonal(a, prototype);
+    mean.applications += whole.applications;
+    check_mean_diagonal(of_a.value, S(32) * detail::epsilon<S>() * whole.value);
+  }
   return mean;
 }
 
