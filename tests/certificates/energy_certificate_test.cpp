@@ -99,6 +99,7 @@ TEST_CASE("A singular: the error is known where the constraints hold what A does
     CHECK(e.bound <= 2 * error);
   }
   CHECK(certificate(solution).bound <= 1e-14);
+  CHECK(std::isinf(certificate(VectorXd(solution.array() + 1e15)).bound));  // rounding, all of it
   // A b that no constraint holds: there is no solution, and nothing is claimed.
   VectorXd const pulled{{2.0, -1.0, 0.0}};
   slant::separable_qp const endless{qp.a(), pulled, slant::half_lines(lower)};

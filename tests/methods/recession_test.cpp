@@ -73,9 +73,21 @@ TEST_CASE("no direction: the set is in the way, the way is not flat, or it does 
     return s;
   }));
   CHECK(never(slant::half_lines(2), [](int) { return at(1, 1); }));
-  // The differences of gradients have lost a curvature that A has.
-  CHECK(never(
-      slant::half_lines(2), [](int k) { return at(1, k); }, 1e-9));
+  // The differences of gradients have lost a curvature that A has, far below that of others.
+  for (double const soft : {1e-9, 1e-20}) {
+    CHECK(never(
+        slant::half_lines(2), [](int k) { return at(1, k); }, soft));
+  }
+}
+
+TEST_CASE("a solution that is far away: what rounding leaves of a slope that cancels is none") {
+  double const e = 0x1p-30;
+  MatrixXd const K{{e, e, 0}, {e, 0.25 + e, -0.5}, {0, -0.5, 1}};
+  VectorXd const b{{e, e, 0}};  // K (−1, 2, 1)
+  auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(K);
+  slant::separable_qp const qp{A, b, slant::free_components(3)};
+  auto const rule = slant::reduced_gradient_below(1e-9) || slant::at_most(300);
+  CHECK(slant::solve(slant::kprgp{qp}, VectorXd(VectorXd::Zero(3)), rule).converged());
 }
 
 TEST_CASE("a direction that looks flat and is not is confirmed only now and then") {

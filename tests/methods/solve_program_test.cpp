@@ -440,6 +440,40 @@ TEST_CASE("solve(program with equations, tolerance): a large unknown of none of 
   CHECK((!run.converged() || std::abs((G * run.x() - e)[0]) <= 1e-8));
 }
 
+TEST_CASE("solve(program with equations, tolerance): corners, rows twice, no stiffness on ker G") {
+  auto const run = [](MatrixXd const& K, VectorXd const& b, VectorXd const& l, VectorXd const& u,
+                      MatrixXd const& G, VectorXd const& e) {
+    auto const A = slant::matrix<slant::self_adjoint, slant::positive_semidefinite>(K);
+    sparse const rows = G.sparseView();
+    auto const set = slant::intervals(l, u);
+    return slant::solve(slant::minimise(slant::quadratic(A, b)).over(set).subject_to(rows, e),
+                        1e-8);
+  };
+  double const oo = infinity;
+  VectorXd const x{{1, -1, -2, -1}};  // the only feasible point
+  auto const corner =
+      run(MatrixXd{{1, 2, 2, 0}, {2, 4, 4, 0}, {2, 4, 8, -2}, {0, 0, -2, 1}},
+          VectorXd{{-3, -3, 3, -2}}, VectorXd{{-oo, -1, -2, -1}}, VectorXd{{1, 1, -1, -1}},
+          MatrixXd{{-2, -1, -1, -2}, {-1, -2, -1, 1}}, VectorXd{{3, 2}});
+  CHECK(corner.converged());
+  CHECK((corner.x() - x).norm() <= 1e-8);
+  auto const twice = run(
+      MatrixXd::Identity(3, 3), VectorXd{{-2, 3, 3}}, VectorXd{{-1, -1, 1}}, VectorXd{{oo, -1, oo}},
+      MatrixXd{{2, 1, 2}, {0, 2, 1}, {0, 2, 1}, {0, -1, -2}}, VectorXd{{1, 0, 0, -3}});
+  CHECK((twice.converged() && (twice.x() - VectorXd{{-1, -1, 2}}).norm() <= 1e-8));
+  auto const soft =
+      run(MatrixXd{{5, -3, -4}, {-3, 2, 2}, {-4, 2, 4}}, VectorXd::Zero(3), VectorXd{{0, 0, -2}},
+          VectorXd{{oo, oo, 0}}, MatrixXd{{0, 1, -2}, {-1, 0, 2}}, VectorXd::Zero(2));
+  CHECK((soft.converged() && soft.x().norm() <= 1e-8));
+  auto const one = run(MatrixXd::Zero(1, 1), VectorXd{{2}}, VectorXd{{1}}, VectorXd{{oo}},
+                       MatrixXd{{-2}}, VectorXd{{-2}});
+  CHECK((one.converged() && one.x()[0] == 1));
+  auto const none = run(MatrixXd{{0, 0}, {0, 2}}, VectorXd{{1, -2}}, VectorXd{{0, -1}},
+                        VectorXd{{oo, -1}}, MatrixXd{{0, 1}}, VectorXd{{-4}});
+  CHECK(none.status == slant::status::stalled);
+  CHECK(none.reason.starts_with("no point of the set satisfies the equality constraints"));
+}
+
 TEST_CASE("solve(program with equations, tolerance): rows that are nearly dependent") {
   auto const set = slant::half_lines(VectorXd::Constant(4, -10));
   int converged = 0;
