@@ -18,8 +18,8 @@
 // runs that are wrong at 1e-8 from zero come last: for each method and adversity the mildest one,
 // with as few blocks of unknowns as are still wrong, as a line for tests/stability/regressions.hpp.
 //
-// Exit status 1 if a run that says `converged` is above 30, or a claimed bound below the true
-// error.
+// Exit status 1 if a run that says `converged` is above 30, one says `unbounded`, or a claimed bound
+// is below the true error.
 
 #include <chrono>
 #include <cmath>
@@ -87,7 +87,8 @@ class bench {
       std::fprintf(stderr, "%ld programs are left out: their reference is not exact enough\n",
                    inexact_);
     std::fprintf(stderr, "%s\n", summary_line(all_).c_str());
-    return all_.count(verdict::wrong) == 0 && all_.claims_broken == 0 && inexact_ == 0;
+    return all_.count(verdict::wrong) == 0 && all_.count(verdict::unbounded) == 0 &&
+           all_.claims_broken == 0 && inexact_ == 0;
   }
 
  private:

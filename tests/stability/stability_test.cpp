@@ -33,6 +33,7 @@ judgement judge_run(judged const& j, method const& m, request const& asked, tall
   // Of a run that has not converged the error is known less well: conjugate gradients that estimate
   // it end at their limit too. The summary counts these.
   if (o.status == slant::status::converged) CHECK_FALSE(result.claim_broken);
+  CHECK(result.said != verdict::unbounded);
   if (m.certified) CHECK(result.said != verdict::wrong);
   return result;
 }
