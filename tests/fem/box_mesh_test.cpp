@@ -72,20 +72,6 @@ TEST_CASE("neighbours fit: inner facets belong to two cells, those of the sides 
     CHECK(cells <= 2);
 }
 
-TEST_CASE("every cell has the diagonal of its cube, in the same direction everywhere") {
-  auto const brick = fem::make_brick_mesh(2);
-  Vector3d const diagonal(0.5, 0.5, 0.5);
-  for (Eigen::Index cell = 0; cell < brick.cell_count(); ++cell) {
-    bool found = false;
-    for (int a = 0; a < 4; ++a)
-      for (int b = 0; b < 4; ++b)
-        found = found || (brick.nodes.col(brick.cells(b, cell)) -
-                          brick.nodes.col(brick.cells(a, cell)) - diagonal)
-                                 .norm() < 1e-12;
-    CHECK(found);
-  }
-}
-
 TEST_CASE("impossible boxes are refused by name") {
   CHECK_THROWS_WITH_AS((void)fem::make_box_mesh<2>({3, 0}, {1, 1}),
                        "cells_along: got 0, expected at least one cell", std::invalid_argument);
