@@ -100,7 +100,7 @@ class composition_map : public slanting_base {
   template <class Y, class G, class W>
   void slant(Y const& y, G& g, W& w) const {
     evaluate_arguments<n - 1>(y, w);
-    slant::update_slant(function<0>(), argument<0>(y, w), g.template factor<0>(),
+    slant::update_slant(function<0>(), argument<0>(y, w), slant_of<0>(g),
                         boost::hana::at_c<0>(w.inner));
     renew_after_value<1>(y, g, w);
   }
@@ -149,11 +149,21 @@ class composition_map : public slanting_base {
   template <std::size_t K, class Y, class G, class W>
   void renew_after_value(Y const& y, G& g, W& w) const {
     if constexpr (K < n) {
-      slant::update_slant_after_value(function<K>(), argument<K>(y, w), g.template factor<K>(),
+      slant::update_slant_after_value(function<K>(), argument<K>(y, w), slant_of<K>(g),
                                       boost::hana::at_c<K>(w.inner));
       renew_after_value<K + 1>(y, g, w);
-    } else {
+    } else if constexpr (!std::is_same_v<C, expr::one>) {
       g.coefficient() = c_;
+    }
+  }
+  /// The slanting operator of F_{K+1} in that of the composition, which make_product gives bare if
+  /// it is the only one and has no number.
+  template <std::size_t K, class G>
+  [[nodiscard]] static auto& slant_of(G& g) {
+    if constexpr (n == 1 && std::is_same_v<C, expr::one>) {
+      return g;
+    } else {
+      return g.template factor<K>();
     }
   }
 
