@@ -37,18 +37,6 @@ namespace slant::detail {
 template <class A>
 inline constexpr bool is_zero_operator<expr::adjoint_view<A>> = is_zero_operator<A>;
 
-template <class X>
-using segment_t = decltype(slant::local(std::declval<X&>()).middleRows(index{}, index{}));
-template <class X>
-using const_segment_t =
-    decltype(slant::local(std::declval<X const&>()).middleRows(index{}, index{}));
-
-/// Whether a part takes segments of vectors like X.
-template <class A, class X>
-inline constexpr bool takes_segments =
-    adds<A, const_segment_t<plain_t<X>>, segment_t<plain_t<X>>> &&
-    applies<A, const_segment_t<plain_t<X>>, segment_t<plain_t<X>>>;
-
 template <class V, class Inner>
 struct copied_segments {
   V x;

@@ -53,6 +53,18 @@ concept adds_adjoint =
     (has_adjoint_accumulate<A, plain_t<X>> && accumulates_adjoint<A, X, Y>) ||
     (!has_adjoint_accumulate<A, plain_t<X>> && applies_adjoint<A, X, plain_t<X>>);
 
+template <class X>
+using segment_t = decltype(slant::local(std::declval<X&>()).middleRows(index{}, index{}));
+template <class X>
+using const_segment_t =
+    decltype(slant::local(std::declval<X const&>()).middleRows(index{}, index{}));
+
+/// Whether a part takes segments of vectors like X, not only X itself.
+template <class A, class X>
+inline constexpr bool takes_segments =
+    adds<A, const_segment_t<plain_t<X>>, segment_t<plain_t<X>>> &&
+    applies<A, const_segment_t<plain_t<X>>, segment_t<plain_t<X>>>;
+
 /// A x is a segment of x, and a.segment(x) shows it without a copy. Only of vectors that are
 /// nothing but Eigen objects: the local part of another kind knows nothing of its other parts.
 template <class A, class X>

@@ -62,9 +62,15 @@ class product : public base_of_node<F...> {
   using first = nth<0, F...>;
   using last = nth<n - 1, F...>;
 
-  /// F_n x is handed on as a view of x.
+  /// F_n x is handed on as a view of x, to a factor that takes one.
   template <class X>
-  static constexpr bool no_copy = n > 1 && slant::detail::shows_segment<last, X>;
+  static constexpr bool no_copy = [] {
+    if constexpr (n > 1 && slant::detail::shows_segment<last, X>) {
+      return slant::detail::takes_segments<nth<n - 2, F...>, X>;
+    } else {
+      return false;
+    }
+  }();
 
  public:
   /// Without the number.
