@@ -25,7 +25,8 @@ class applied;
 namespace Eigen::internal {
 template <class A, class X, class W>
 struct traits<slant::expr::applied<A, X, W>> {
-  using ReturnType = slant::plain_t<std::remove_cvref_t<X>>;
+  // A x has the rows of A, whatever the type of x says of those of x.
+  using ReturnType = Matrix<typename slant::plain_t<std::remove_cvref_t<X>>::Scalar, Dynamic, 1>;
   enum { Flags = EvalBeforeNestingBit };
 };
 }  // namespace Eigen::internal
@@ -104,7 +105,7 @@ class applied : public Eigen::ReturnByValue<applied<A, X, W>> {
       auto w = slant::detail::accumulate_workspace(a, x_.get());
       slant::detail::accumulate(a, scalar_t<Y>(1), x_.get(), y, w);
     } else {
-      y += vector_type(*this);
+      y += this->eval();
     }
   }
   /// The same with the temporaries slant::workspace(A, x).
