@@ -10,12 +10,8 @@
 namespace laws_test {
 
 using namespace test::evaluated;
-using slant::any_sign;
-using slant::full_column_rank;
-using slant::full_row_rank;
-using slant::identity;
-using slant::law_set;
-using slant::positive;
+using slant::any_sign, slant::full_column_rank, slant::full_row_rank, slant::identity;
+using slant::law_set, slant::positive;
 
 constexpr law_set none{};
 constexpr law_set sa = slant::laws<slant::self_adjoint>;
@@ -95,10 +91,17 @@ TEST_CASE("laws of palindromes") {
   auto const Bf = full_row_rank(B);
   auto const W = op<"W">(S - 2 * P);
   auto const here = op(o.G);
+  auto const CB = full_row_rank(C * B);
+  auto const GH = full_row_rank(G + H);
+  auto const counted = slant::counted(B);
   MatrixXd const K = o.K.inverse();
   MatrixXd const BKB = o.B * K * o.B.transpose();
   EXPECT(psd, B * Kinv * adjoint(B), BKB);
   EXPECT(spd, Bf * Kinv * adjoint(B), BKB);
+  EXPECT(spd, B * Kinv * adjoint(Bf), BKB);
+  EXPECT(spd, CB * Kinv * adjoint(CB), o.C * BKB * o.C.transpose());
+  EXPECT(spd, GH * S * adjoint(GH), (o.G + o.H) * o.S * (o.G + o.H).transpose());
+  EXPECT(psd, counted * Kinv * adjoint(counted), BKB);
   EXPECT(spd, B * Kinv * adjoint(B) + 1e-3 * identity(m), BKB + 1e-3 * MatrixXd::Identity(m, m));
   EXPECT(psd, 2.0 * B * S * adjoint(B) * 3.0, 6 * o.B * o.S * o.B.transpose());
   EXPECT(psd, C * (B * Kinv * adjoint(B)) * adjoint(C), o.C * BKB * o.C.transpose());

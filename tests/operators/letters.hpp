@@ -91,10 +91,8 @@ template <class A>
 
 /// The letters K⁻¹, S, P, … of a test case, named as the matrices.
 #define SLANT_TEST_LETTERS                                                           \
-  using slant::op;                                                                   \
-  using slant::self_adjoint;                                                         \
-  using slant::positive_definite;                                                    \
-  using slant::positive_semidefinite;                                                \
+  using slant::op, slant::self_adjoint;                                              \
+  using slant::positive_definite, slant::positive_semidefinite;                      \
   auto const& o = test::letters_of_test();                                           \
   [[maybe_unused]] int const n = o.n, m = o.m;                                       \
   [[maybe_unused]] auto const Kinv = inverse(op<"K">(slant::dense_ldlt(o.K)));       \

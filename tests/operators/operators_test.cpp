@@ -67,13 +67,9 @@ TEST_CASE("no allocation once the workspace exists") {
   VectorXd x = test::random_column(6, 3);
   VectorXd y(6);
   auto w = slant::workspace(a, x);
-  slant::testing::allocation_guard guard;
-  for (int k_th = 0; k_th < 3; ++k_th) {
-    slant::apply(a, x, y, w);
-    x += 0.1 * y;
-  }
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  CHECK(test::allocations_of([&] {
+          for (int k_th = 0; k_th < 3; ++k_th, x += 0.1 * y) slant::apply(a, x, y, w);
+        }) == 0);
 }
 
 TEST_CASE("no allocation for the adjoint, for many right-hand sides, for dense matrices") {
@@ -83,19 +79,17 @@ TEST_CASE("no allocation for the adjoint, for many right-hand sides, for dense m
                             slant::difference(b, slant::product(b, slant::adjoint(m))));
   VectorXd const x = test::random_column(40, 6);
   VectorXd const z = test::random_column(20, 7);
-  VectorXd y(20);
-  VectorXd u(40);
+  VectorXd y(20), u(40);
   MatrixXd const several = test::random_dense(40, 3, 8);
   MatrixXd images(20, 3);
   auto w = slant::workspace(a, x);
   auto w_adjoint = slant::adjoint_workspace(a, z);
   auto w_several = slant::workspace(a, several);
-  slant::testing::allocation_guard guard;
-  slant::apply(a, x, y, w);
-  slant::apply_adjoint(a, z, u, w_adjoint);
-  slant::apply(a, several, images, w_several);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  CHECK(test::allocations_of([&] {
+          slant::apply(a, x, y, w);
+          slant::apply_adjoint(a, z, u, w_adjoint);
+          slant::apply(a, several, images, w_several);
+        }) == 0);
   MatrixXd const expected = b * m + 2 * b * m * m + b - b * m.transpose();
   CHECK((y - expected * x).norm() < 1e-12);
   CHECK((u - expected.transpose() * z).norm() < 1e-12);

@@ -85,6 +85,8 @@ TEST_CASE("what is refused, in a sentence that names it") {
   CHECK(SLANT_COMPLAINT(here(o.G) * adjoint(here(o.H))) ==
         "an operator: got two different objects made by one op(…), one of them as an adjoint, "
         "expected one object, or op<\"name\">(…), or distinct(…) of one of them");
+  using slant::counted;
+  CHECK_THROWS_AS((void)(counted(here(o.G)) * adjoint(counted(here(o.H)))), slant::bad_input);
   CHECK_NOTHROW((void)(here(o.G) * here(o.H)));
   CHECK_NOTHROW((void)(here(o.G) * adjoint(distinct(here(o.H)))));
   CHECK_NOTHROW((void)(op<"B">(o.B) * adjoint(op<"B">(o.B))));
@@ -175,8 +177,7 @@ TEST_CASE("describe") {
   SLANT_TEST_LETTERS;
   auto const Kc = op<"K">(slant::counted(Kinv));
   auto const A = B * Kc * adjoint(B) - identity(m);
-  VectorXd const x = VectorXd::Ones(m);
-  VectorXd const y = A * x;
+  VectorXd const x = VectorXd::Ones(m), y = A * x;
   CHECK(describe(A) ==
         "B K Bᵀ − I   4 × 4, self-adjoint, workspace 112 bytes\n"
         "│  not positive_semidefinite: in the term -I, a minus stands before I\n"

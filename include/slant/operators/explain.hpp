@@ -52,7 +52,7 @@ struct reason<product<C, F...>> {
         }
       }
       [&]<std::size_t... I>(std::index_sequence<I...>) {
-        static_cast<void>((dependent<nth<I, F...>>(out) || ...));
+        static_cast<void>((dependent<nth<I, F...>, nth<n - 1 - I, F...>>(out) || ...));
       }(std::make_index_sequence<k>{});
     }
   }
@@ -69,9 +69,9 @@ struct reason<product<C, F...>> {
       out.add(" as far as types tell: name both by op<\"...\">");
     }
   }
-  template <class G>
+  template <class G, class Adjoint>
   static constexpr bool dependent(ascii& out) {
-    if (declares_full_row_rank<G>) return false;
+    if (rows_are_independent<G, Adjoint>) return false;
     out.add("the rows of ");
     expr::spell_part<G>(out);
     out.add(" may be dependent: assert full_row_rank(");

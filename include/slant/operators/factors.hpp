@@ -272,9 +272,23 @@ inline constexpr bool is_product<product<C, F...>> = true;
 template <class F, class G>
 inline constexpr bool mirrors = false;
 
+/// Objects of type A are one operator: a formula of letters with names, or what decorates one.
+template <class A>
+[[nodiscard]] consteval bool is_named_formula() {
+  if constexpr (decorates<A>) {
+    return is_named_formula<std::remove_cvref_t<decltype(std::declval<A const&>().get())>>();
+  } else if constexpr (expression<A>) {
+    return mirrors<A, decltype(std::declval<A const&>().adjoint())>;
+  } else {
+    return false;
+  }
+}
+
 template <auto Name, class A, unsigned P, unsigned Q>
 inline constexpr bool mirrors<letter<Name, A, P>, letter<Name, A, Q>> = [] {
-  if constexpr (is_named<Name> && (P & inverted) == (Q & inverted)) {
+  if constexpr ((P & inverted) != (Q & inverted)) {
+    return false;
+  } else if constexpr (is_named<Name> || is_named_formula<A>()) {
     return ((P ^ Q) & adjointed) != 0 || is_self_adjoint<letter<Name, A, P>>;
   } else {
     return false;
@@ -292,10 +306,24 @@ template <class... T, class... U>
   requires(sizeof...(T) == sizeof...(U))
 inline constexpr bool mirrors<sum<T...>, sum<U...>> = (mirrors<T, U> && ...);
 
+template <class C, class... F, class... G>
+void check_mirror(product<C, F...> const& f, product<C, G...> const& g);
+template <class... T, class... U>
+void check_mirror(sum<T...> const& f, sum<U...> const& g);
+
 /// Throws bad_input if letters of F and G, which mirror each other, are different objects.
 template <auto Name, class A, unsigned P, unsigned Q>
 void check_mirror(letter<Name, A, P> const& f, letter<Name, A, Q> const& g) {
-  if (f.origin() != g.origin()) {
+  if constexpr (!is_named<Name>) {
+    auto const check = [](auto const& self, auto const& a, auto const& b) {
+      if constexpr (decorates<std::remove_cvref_t<decltype(a)>>) {
+        self(self, a.get(), b.get());
+      } else {
+        expr::check_mirror(a, b.adjoint());
+      }
+    };
+    check(check, *f.object(), *g.object());
+  } else if (f.origin() != g.origin()) {
     throw bad_input(text_of(Name).empty() ? std::string_view("an operator") : text_of(Name),
                     "two different objects made by one op(…), one of them as an adjoint",
                     "one object, or op<\"name\">(…), or distinct(…) of one of them");
@@ -328,6 +356,11 @@ template <class... F>
   return k;
 }
 
+/// The rows of F are independent, whether that is asserted of F or of G, its adjoint.
+template <class F, class G>
+inline constexpr bool rows_are_independent =
+    declares_full_row_rank<F> || declares_full_row_rank<decltype(std::declval<G>().adjoint())>;
+
 /// The laws of F₁ … F_n without a number in front.
 template <class... F>
 [[nodiscard]] consteval law_set product_laws() {
@@ -339,7 +372,7 @@ template <class... F>
     return {};
   } else {
     bool const independent = []<std::size_t... I>(std::index_sequence<I...>) {
-      return (declares_full_row_rank<nth<I, F...>> && ...);
+      return (rows_are_independent<nth<I, F...>, nth<n - 1 - I, F...>> && ...);
     }(std::make_index_sequence<k>{});
     law_set const middle = [] {
       if constexpr (n == 2 * k) {
