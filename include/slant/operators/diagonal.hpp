@@ -41,7 +41,8 @@ class diagonal_operator {
     slant::local(y).noalias() = entries().asDiagonal() * slant::local(x);
   }
   void apply_add(scalar α, has_scalar<scalar> auto const& x, auto& y) const {
-    slant::local(y).noalias() += (α * entries()).asDiagonal() * slant::local(x);
+    // α D could leave the range of the scalar where α (D x) does not.
+    slant::local(y).noalias() += α * (entries().asDiagonal() * slant::local(x));
   }
   void diagonal(has_scalar<scalar> auto& d) const { slant::local(d) = entries(); }
   void columns(index first, has_scalar<scalar> auto& y) const {
