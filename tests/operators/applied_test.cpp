@@ -33,6 +33,8 @@ TEST_CASE("A * x is what Eigen computes, wherever it is written to") {
   Eigen::Matrix2f const f = Eigen::Vector2f(1, 2).asDiagonal();
   Eigen::Vector2f const h = (op<"F">(f) * 2.5) * Eigen::Vector2f(1, 2);
   CHECK(h == Eigen::Vector2f(2.5F, 10));
+  Eigen::Vector2f const g = (1e50 * op<"F">(f) / 1e49) * Eigen::Vector2f(1, 2);
+  CHECK(g == Eigen::Vector2f(10, 40));
   Vector3d const short_x(1, 2, 3);  // of another size than A x, which its type does not know
   CHECK((op<"L">(o.B.leftCols(3)) * short_x - b).isApprox(o.B.leftCols(3) * short_x - b, 1e-14));
 }

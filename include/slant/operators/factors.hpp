@@ -117,6 +117,13 @@ template <class C>
   }
 }
 
+/// Neither infinite nor NaN, nor so small that digits are lost.
+template <class S>
+[[nodiscard]] bool is_normal(S const& s) {
+  using std::abs;
+  return slant::detail::is_finite(s) && !(abs(s) < std::numeric_limits<S>::min());
+}
+
 /// c d. Throws bad_input if the product leaves the range of its scalar.
 template <class C, class D>
 [[nodiscard]] auto multiply_numbers(C const& c, D const& d) {
@@ -132,11 +139,7 @@ template <class C, class D>
     using S = common_number<decltype(c.value), decltype(d.value)>;
     number<S, sign_of<C> * sign_of<D>> p{S(S(c.value) * S(d.value)),
                                          S(S(c.divisor) * S(d.divisor))};
-    auto const is_normal = [](S const& s) {
-      using std::abs;
-      return slant::detail::is_finite(s) && !(abs(s) < std::numeric_limits<S>::min());
-    };
-    if (!is_normal(p.value) || !is_normal(p.divisor)) {
+    if (!expr::is_normal(p.value) || !expr::is_normal(p.divisor)) {
       p = {S(S(c.value) / S(c.divisor)) * S(S(d.value) / S(d.divisor)), S(1)};
     }
     S const quotient = p.value / p.divisor;
@@ -171,8 +174,13 @@ template <class T, class C>
     return T(static_cast<int>(sign_of<C>));
   } else {
     using S = decltype(c.value);
-    return c.divisor == S(1) ? static_cast<T>(c.value)
-                             : T(static_cast<T>(c.value) / static_cast<T>(c.divisor));
+    T const value = static_cast<T>(c.value);
+    if (c.divisor == S(1)) return value;
+    T const divisor = static_cast<T>(c.divisor);
+    // The two can leave the range of T where the number does not.
+    return expr::is_normal(value) && expr::is_normal(divisor)
+               ? T(value / divisor)
+               : static_cast<T>(S(c.value / c.divisor));
   }
 }
 
