@@ -55,11 +55,15 @@ TEST_CASE("formulas print themselves and their slanting operators") {
   out << F << "\n"
       << F.slant(y) << "\n"
       << -(2 * A * slant::positive_part(x + b)) << "\n"
+      << A * (-slant::min(A * x, x)) - slant::max(x, x) << "\n"
+      << x - slant::fischer_burmeister(-A * x, x) << "\n"
       << (A + slant::identity(2)) * slant::positive_part(2);
   CHECK(out.str() ==
         "x ↦ x − max(0, x − 0.5 (A x − c))   (2 → 2)\n"
         "I − diag (I − 0.5 A)   (2 × 2, no laws)\n"
         "x ↦ −2 A max(0, x + c)   (2 → 2)\n"
+        "x ↦ A (−min(A x, x)) − max(x, x)   (2 → 2)\n"
+        "x ↦ x − φ_FB(−A x, x)   (2 → 2)\n"
         "x ↦ (A + I) max(0, x)   (2 → 2)");
 }
 

@@ -61,9 +61,8 @@ TEST_CASE("NaN in, NaN out") {
 }
 
 TEST_CASE("value and renewal allocate nothing") {
-  auto const f = slant::max(slant::positive_part(20), slant::identity_map(20));
-  VectorXd const y = slanting_support::random_vector(20, 1);
-  slanting_support::check_renewal(f, y);
+  slanting_support::check_renewal(slant::max(slant::positive_part(20), slant::identity_map(20)),
+                                  slanting_support::random_vector(20, 1));
 }
 
 TEST_CASE("parts of which nothing is known but the concept") {

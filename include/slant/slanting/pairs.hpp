@@ -160,7 +160,7 @@ pointwise_pair_workspace(First, Second, Vector, Vector)
     -> pointwise_pair_workspace<First, Second, Vector>;
 
 /// κ is Kernel::value(a, b) → number and Kernel::slopes(a, b) → {p, q}; Kernel::chooses says that
-/// the slopes are always (1, 0) or (0, 1), or NaN.
+/// the slopes are always (1, 0) or (0, 1), or NaN; Kernel::name is printed.
 template <class Kernel, class F, class G>
 class pointwise_pair : public slanting_base {
   using left_type = std::remove_cvref_t<F>;
@@ -223,6 +223,11 @@ class pointwise_pair : public slanting_base {
     slant::update_slant_after_value(right(), y, s.second(), w.second);
   }
 
+  [[nodiscard]] written write(written const& y) const {
+    std::string const f = detail::write(left(), y).text, g = detail::write(right(), y).text;
+    return {Kernel::name + ("(" + f) + ", " + g + ")", false};
+  }
+
  private:
   template <class Y, class W>
   void evaluate_parts(Y const& y, W& w) const {
@@ -259,6 +264,7 @@ namespace detail {
 template <bool Larger>
 struct extremum_kernel {
   static constexpr bool chooses = true;
+  static constexpr char const* name = Larger ? "max" : "min";
 
   template <class S>
   [[nodiscard]] static S value(S const& a, S const& b) {
@@ -376,6 +382,7 @@ namespace detail {
 
 struct fischer_burmeister_kernel {
   static constexpr bool chooses = false;
+  static constexpr char const* name = "φ_FB";
 
   template <class S>
   [[nodiscard]] static S value(S const& a, S const& b) {

@@ -93,7 +93,10 @@ struct written {
   std::string text{};
   bool is_sum = false;
 
-  [[nodiscard]] std::string as_factor() const { return is_sum ? "(" + text + ")" : text; }
+  /// In parentheses where A F(y) would read as a sum or a difference.
+  [[nodiscard]] std::string as_factor() const {
+    return is_sum || text.starts_with("−") ? "(" + text + ")" : text;
+  }
   /// + term, or its minus for a sign that is there.
   void append(written const& term, bool first) {
     std::string_view const minus = "−";
