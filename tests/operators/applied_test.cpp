@@ -70,8 +70,7 @@ TEST_CASE("with a workspace nothing is allocated, nor a segment copied") {
   auto const R3 = op<"R">(middle{});
   auto const A = full_row_rank(B) * Kinv * adjoint(B) - 0.5 * slant::identity(m);
   auto const F = o.C.leftCols(3) * R3;
-  VectorXd const x = VectorXd::LinSpaced(m, -1, 1);
-  VectorXd const z = VectorXd::LinSpaced(n, -1, 1);
+  VectorXd const x = VectorXd::LinSpaced(m, -1, 1), z = VectorXd::LinSpaced(n, -1, 1);
   VectorXd y(m), v(o.p);
   auto w = slant::workspace(A, x);
   auto u = slant::workspace(F, z);

@@ -64,8 +64,7 @@ TEST_CASE("no allocation once the workspace exists") {
   test::dense<double> const k = test::random_spd(5, 1);
   Eigen::SparseMatrix<double> const b = test::random_sparse(3, 5, 2);
   auto const a = composition<double>(b, k);
-  VectorXd x = test::random_column(6, 3);
-  VectorXd y(6);
+  VectorXd x = test::random_column(6, 3), y(6);
   auto w = slant::workspace(a, x);
   CHECK(test::allocations_of([&] {
           for (int k_th = 0; k_th < 3; ++k_th, x += 0.1 * y) slant::apply(a, x, y, w);
@@ -77,8 +76,7 @@ TEST_CASE("no allocation for the adjoint, for many right-hand sides, for dense m
   auto const b = test::random_sparse(20, 40, 5);
   auto const a = slant::sum(slant::product(b, m), slant::scaled(2.0, slant::product(b, m, m)),
                             slant::difference(b, slant::product(b, slant::adjoint(m))));
-  VectorXd const x = test::random_column(40, 6);
-  VectorXd const z = test::random_column(20, 7);
+  VectorXd const x = test::random_column(40, 6), z = test::random_column(20, 7);
   VectorXd y(20), u(40);
   MatrixXd const several = test::random_dense(40, 3, 8);
   MatrixXd images(20, 3);

@@ -17,10 +17,6 @@ template <class A>
 slant::index negate(A const& a) {
   return a.rows();
 }
-template <class A>
-slant::index view(A const& a) {
-  return a.rows();
-}
 template <class A, class B>
 slant::index multiply(A const& a, B const& b) {
   return a.rows() + b.rows();
@@ -33,7 +29,7 @@ slant::index run(A const& a, X const&, Y&, W&) {
 template <class A>
 slant::index all(A const& a) {
   int y = 0, w = 0;
-  return negate(a) + view(a) + multiply(a, a) + run(a, 0, y, w);
+  return negate(a) + multiply(a, a) + run(a, 0, y, w);
 }
 
 }  // namespace client
@@ -55,8 +51,8 @@ template <class A, class B> concept adds = requires(A const& a, B const& b) { a 
 TEST_CASE("functions of a client are not mixed up with those of the library") {
   MatrixXd const m = MatrixXd::Identity(2, 2);
   auto const A = slant::op<"A">(m);
-  CHECK(client::all(A) == 10);
-  CHECK(client::all(2 * A + A) == 10);
+  CHECK(client::all(A) == 8);
+  CHECK(client::all(2 * A + A) == 8);
 }
 
 TEST_CASE("which operands find the operators, and which do not") {
@@ -96,8 +92,6 @@ TEST_CASE("what is refused, in a sentence that names it") {
   CHECK(SLANT_COMPLAINT(0.0 * S).starts_with("c: got 0, expected a number > 0"));
   CHECK(SLANT_COMPLAINT(-2.0 * B * S * adjoint(B))
             .starts_with("c: got -2, expected a number >= 0 in front of a semidefinite"));
-  CHECK_NOTHROW((void)(-2.0 * B * S));
-  CHECK_NOTHROW((void)(-2.0 * G));
   CHECK_NOTHROW((void)(-(2.0 * S)));
   CHECK(SLANT_COMPLAINT(std::nan("") * G) == "c: got nan, expected a finite number");
   CHECK(SLANT_COMPLAINT(1e-200 * (1e-200 * S))
@@ -134,6 +128,13 @@ TEST_CASE("printing") {
   CHECK(text(op<"F">(foreign{}) + foreign{}) == "F + foreign   (2 × 2, no laws)");
   CHECK(text(+J) == "J   (7 × 7, orthogonal projector)");
   CHECK(text(T + o.H) == "T + matrix   (7 × 7, no laws)");
+  auto const minus = slant::congruence(o.B, -S);
+  CHECK(to_string(C * minus) == "C (−matrix S matrixᵀ)");
+  CHECK(to_string(-minus) == "−(−matrix S matrixᵀ)");
+  CHECK(to_string(N + minus) == "N − matrix S matrixᵀ");
+  CHECK(to_string(G * slant::congruence(I, S + P)) == "G (S + P)");
+  CHECK(slant::expr::formula_of<decltype(C * minus)>().view() ==
+        "C * (-matrix * S * adjoint(matrix))");
 }
 
 TEST_CASE("what declares, asserts or counts is printed as the operator behind it") {

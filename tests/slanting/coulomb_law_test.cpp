@@ -52,12 +52,11 @@ TEST_CASE("blockwise: new parameters and renewal in place allocate nothing") {
   VectorXd v(4);
   auto w = slant::workspace(f, y);
   auto g = f.slant(VectorXd::Zero(4).eval());
-  slant::testing::allocation_guard const guard;
-  f.update(c);
-  slant::evaluate(f, y, v, w);
-  slant::update_slant(f, y, g, w);
-  auto const allocations = guard.count();
-  CHECK(allocations == 0);
+  CHECK(test::allocations_of([&] {
+          f.update(c);
+          slant::evaluate(f, y, v, w);
+          slant::update_slant(f, y, g, w);
+        }) == 0);
   auto const again = slant::blockwise(quadratic{}, c);
   CHECK(v == slant::evaluate(again, y));
   CHECK(dense(g, y) == dense_slant(again, y));

@@ -273,6 +273,12 @@ inline constexpr bool is_product = false;
 template <class C, class... F>
 inline constexpr bool is_product<product<C, F...>> = true;
 
+/// It is printed with a number in front.
+template <class A>
+concept starts_with_number = requires(A const& a) {
+  requires !std::is_same_v<std::remove_cvref_t<decltype(a.coefficient())>, one>;
+};
+
 // --- mirrors -------------------------------------------------------------------------------------
 
 /// G is the adjoint of F, as far as types can tell. An expression with a number in it, which is a

@@ -208,14 +208,15 @@ class product : public base_of_node<F...> {
     out += expr::text_in_front(c_);
     print_core(out);
   }
-  /// Without the number; sums in parentheses.
+  /// Without the number; in parentheses sums, and numbers that are not the first one.
   void print_core(std::string& out) const {
     bool next = false;
     auto const print_factor = [&]<class G>(G const& g) {
+      bool const closed = is_sum<G> || (starts_with_number<G> && (next || has_number));
       if (next) out += " ";
-      if (is_sum<G>) out += "(";
+      if (closed) out += "(";
       expr::print_part(g, out);
-      if (is_sum<G>) out += ")";
+      if (closed) out += ")";
       next = true;
     };
     hana::unpack(factors_, [&](auto const&... f) { (print_factor(f), ...); });
@@ -224,15 +225,16 @@ class product : public base_of_node<F...> {
     if (sign_of<C> == sign::minus) out.add("-");
     bool next = !std::is_empty_v<C>;
     if (next) out.add("c");
-    (((next ? out.add(" * ") : out), next = true, spell_factor<F>(out)), ...);
+    (((next ? out.add(" * ") : out), spell_factor<F>(out, next || has_number), next = true), ...);
   }
 
  private:
   template <class G>
-  static constexpr void spell_factor(ascii& out) {
-    if (is_sum<G>) out.add("(");
+  static constexpr void spell_factor(ascii& out, bool next) {
+    bool const closed = is_sum<G> || (starts_with_number<G> && next);
+    if (closed) out.add("(");
     expr::spell_part<G>(out);
-    if (is_sum<G>) out.add(")");
+    if (closed) out.add(")");
   }
 
   template <class Y>
@@ -472,7 +474,7 @@ template <adjoint_operand B>
 template <class A, class B>
 [[nodiscard]] auto multiply_around(A const& a, B const& b) {
   auto p = expr::product_of(b, a, b.adjoint());
-  if constexpr (is_twin<B>) {
+  if constexpr (is_twin<B> && !is_identity<B>) {
     return sealed<decltype(p)>(std::move(p));
   } else {
     return p;

@@ -134,7 +134,7 @@ class sum : public base_of_node<T...> {
     bool next = false;
     auto const print_term = [&]<class U>(U const& t) {
       if (next) {
-        if constexpr (is_product<U>) {
+        if constexpr (requires { t.coefficient(); }) {
           double const c = expr::value_as<double>(t.coefficient());
           out += c < 0 ? " − " : " + ";
           if (std::abs(c) != 1) out += number_text(std::abs(c)) + " ";
