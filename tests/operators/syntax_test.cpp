@@ -85,7 +85,7 @@ TEST_CASE("what is refused, in a sentence that names it") {
   CHECK_THROWS_AS((void)(counted(here(o.G)) * adjoint(counted(here(o.H)))), slant::bad_input);
   CHECK_NOTHROW((void)(here(o.G) * here(o.H)));
   CHECK_NOTHROW((void)(here(o.G) * adjoint(distinct(here(o.H)))));
-  CHECK_NOTHROW((void)(op<"B">(o.B) * adjoint(op<"B">(o.B))));
+  CHECK_NOTHROW((void)(op<"B">(o.B) * adjoint(op<"B">(o.B)) + B * adjoint(op<"B">(B))));
   CHECK(SLANT_COMPLAINT(-2.0 * S) ==
         "c: got -2, expected a number > 0 in front of a definite operator; for others write "
         "-(c * A) or any_sign(c) * A");

@@ -377,6 +377,13 @@ class letter<Name, F, Flags> : public factored<Name, F> {
 template <auto Name, class A, unsigned Flags>
 inline constexpr bool is_letter<letter<Name, A, Flags>> = true;
 
+/// A letter that bears a name in turn is one operator under both.
+template <auto Name, class A, unsigned Flags>
+  requires((Flags & (adjointed | inverted)) == 0)
+[[nodiscard]] void const* identity_of(letter<Name, A, Flags> const& a) {
+  return a.origin();
+}
+
 template <auto Name, class A>
 [[nodiscard]] auto make_letter(A&& a) {
   using U = std::remove_cvref_t<A>;
