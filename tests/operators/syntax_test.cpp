@@ -81,10 +81,11 @@ TEST_CASE("what is refused, in a sentence that names it") {
   CHECK(SLANT_COMPLAINT(here(o.G) * adjoint(here(o.H))) ==
         "an operator: got two different objects made by one op(…), one of them as an adjoint, "
         "expected one object, or op<\"name\">(…), or distinct(…) of one of them");
-  using slant::counted;
-  CHECK_THROWS_AS((void)(counted(here(o.G)) * adjoint(counted(here(o.H)))), slant::bad_input);
-  CHECK_NOTHROW((void)(here(o.G) * here(o.H)));
-  CHECK_NOTHROW((void)(here(o.G) * adjoint(distinct(here(o.H)))));
+  auto const g = here(o.G), h = here(o.H);
+  CHECK_THROWS_AS((void)(slant::counted(g) * adjoint(slant::counted(h))), slant::bad_input);
+  CHECK_NOTHROW((void)(g + h + adjoint(h) + adjoint(g)));
+  CHECK_THROWS_AS((void)(g + h + adjoint(h) + adjoint(h)), slant::bad_input);
+  CHECK_NOTHROW((void)(g * h + g * adjoint(distinct(h))));
   CHECK_NOTHROW((void)(op<"B">(o.B) * adjoint(op<"B">(o.B)) + B * adjoint(op<"B">(B))));
   CHECK(SLANT_COMPLAINT(-2.0 * S) ==
         "c: got -2, expected a number > 0 in front of a definite operator; for others write "
@@ -112,9 +113,7 @@ TEST_CASE("what is refused, in a sentence that names it") {
 }
 
 std::string text(auto const& a) {
-  std::ostringstream out;
-  out << a;
-  return out.str();
+  return (std::ostringstream() << a).str();
 }
 
 TEST_CASE("printing") {

@@ -321,39 +321,47 @@ template <class... T, class... U>
 inline constexpr bool mirrors<sum<T...>, sum<U...>> = (mirrors<T, U> && ...);
 
 template <class C, class... F, class... G>
-void check_mirror(product<C, F...> const& f, product<C, G...> const& g);
+[[nodiscard]] bool same_letters(product<C, F...> const& f, product<C, G...> const& g);
 template <class... T, class... U>
-void check_mirror(sum<T...> const& f, sum<U...> const& g);
+[[nodiscard]] bool same_letters(sum<T...> const& f, sum<U...> const& g);
 
-/// Throws bad_input if letters of F and G, which mirror each other, are different objects.
+/// Whether the letters of F and G, which mirror each other by their types, are the same objects.
 template <auto Name, class A, unsigned P, unsigned Q>
-void check_mirror(letter<Name, A, P> const& f, letter<Name, A, Q> const& g) {
-  if constexpr (!is_named<Name>) {
-    auto const check = [](auto const& self, auto const& a, auto const& b) {
+[[nodiscard]] bool same_letters(letter<Name, A, P> const& f, letter<Name, A, Q> const& g) {
+  if constexpr (is_named<Name>) {
+    return f.origin() == g.origin();
+  } else {
+    auto const same = [](auto const& self, auto const& a, auto const& b) {
       if constexpr (decorates<std::remove_cvref_t<decltype(a)>>) {
-        self(self, a.get(), b.get());
+        return self(self, a.get(), b.get());
       } else {
-        expr::check_mirror(a, b.adjoint());
+        return expr::same_letters(a, b.adjoint());
       }
     };
-    check(check, *f.object(), *g.object());
-  } else if (f.origin() != g.origin()) {
-    throw bad_input(text_of(Name).empty() ? std::string_view("an operator") : text_of(Name),
-                    "two different objects made by one op(…), one of them as an adjoint",
-                    "one object, or op<\"name\">(…), or distinct(…) of one of them");
+    return same(same, *f.object(), *g.object());
   }
 }
 template <class C, class... F, class... G>
-void check_mirror(product<C, F...> const& f, product<C, G...> const& g) {
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (expr::check_mirror(f.template factor<I>(), g.template factor<sizeof...(G) - 1 - I>()), ...);
+bool same_letters(product<C, F...> const& f, product<C, G...> const& g) {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return (expr::same_letters(f.template factor<I>(), g.template factor<sizeof...(G) - 1 - I>()) &&
+            ...);
   }(std::index_sequence_for<F...>{});
 }
 template <class... T, class... U>
-void check_mirror(sum<T...> const& f, sum<U...> const& g) {
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (expr::check_mirror(f.template term<I>(), g.template term<I>()), ...);
+bool same_letters(sum<T...> const& f, sum<U...> const& g) {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return (expr::same_letters(f.template term<I>(), g.template term<I>()) && ...);
   }(std::index_sequence_for<T...>{});
+}
+
+/// Throws bad_input unless letters that mirror each other are the same objects.
+[[gnu::cold]] inline void require_same_letters(bool same) {
+  if (!same) {
+    throw bad_input("an operator",
+                    "two different objects made by one op(…), one of them as an adjoint",
+                    "one object, or op<\"name\">(…), or distinct(…) of one of them");
+  }
 }
 
 // --- laws ----------------------------------------------------------------------------------------

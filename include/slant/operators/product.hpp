@@ -85,7 +85,7 @@ class product : public base_of_node<F...> {
     dictionary names;
     if constexpr (n > 1) enter(names);
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (expr::check_mirror(factor<I>(), factor<n - 1 - I>()), ...);
+      expr::require_same_letters((expr::same_letters(factor<I>(), factor<n - 1 - I>()) && ...));
     }(std::make_index_sequence < n == 1 ? 0 : mirrored_pairs<F...>() > {});
     if constexpr (laws.contains(law::positive_semidefinite)) {
       expr::require_sign(c_, laws.contains(law::positive_definite));

@@ -39,7 +39,8 @@ class sum : public base_of_node<T...> {
     dictionary names;
     enter(names);
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (check_partner<I>(), ...);
+      std::array<bool, sizeof...(T)> paired{};
+      if constexpr (laws.contains(law::self_adjoint)) (check_partner<I>(paired), ...);
     }(std::index_sequence_for<T...>{});
   }
 
@@ -156,12 +157,20 @@ class sum : public base_of_node<T...> {
   }
 
  private:
+  /// Pairs term I with a later one of its adjoint's type, of the same letters.
   template <std::size_t I>
-  void check_partner() const {
-    constexpr std::size_t partner = partners<T...>()[I];
-    if constexpr (partner > I && partner < sizeof...(T)) {
-      expr::check_mirror(term<I>(), term<partner>());
-    }
+  void check_partner(std::array<bool, sizeof...(T)>& paired) const {
+    if (partners<T...>()[I] == I || paired[I]) return;
+    [&]<std::size_t... J>(std::index_sequence<J...>) {
+      auto const fits = [&]<std::size_t K>() {
+        if constexpr (K > I && mirrors<nth<I, T...>, nth<K, T...>>) {
+          return !paired[K] && (paired[K] = expr::same_letters(term<I>(), term<K>()));
+        } else {
+          return false;
+        }
+      };
+      expr::require_same_letters((fits.template operator()<J>() || ...));
+    }(std::index_sequence_for<T...>{});
   }
   /// y = Σ part(Tᵢ).
   void add_up(auto& y, auto const& part) const {
