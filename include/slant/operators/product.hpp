@@ -208,7 +208,7 @@ class product : public base_of_node<F...> {
     out += expr::text_in_front(c_);
     print_core(out);
   }
-  /// Without the number; in parentheses sums, and numbers that are not the first one.
+  /// Without the number; in parentheses sums, and products with a number that stand behind others.
   void print_core(std::string& out) const {
     bool next = false;
     auto const print_factor = [&]<class G>(G const& g) {
