@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <type_traits>
 
 namespace slant::expr {
 template <class A, class X, class W = void>
@@ -25,8 +26,12 @@ class applied;
 namespace Eigen::internal {
 template <class A, class X, class W>
 struct traits<slant::expr::applied<A, X, W>> {
-  // A x has the rows of A, whatever the type of x says of those of x.
-  using ReturnType = Matrix<typename slant::plain_t<std::remove_cvref_t<X>>::Scalar, Dynamic, 1>;
+  using plain = slant::plain_t<std::remove_cvref_t<X>>;
+  // What the type of x says of its rows holds for A x if A is known to be square.
+  static constexpr bool same_rows =
+      plain::RowsAtCompileTime == Dynamic || slant::declares_self_adjoint<A>;
+  using ReturnType =
+      std::conditional_t<same_rows, plain, Matrix<typename plain::Scalar, Dynamic, 1>>;
   enum { Flags = EvalBeforeNestingBit };
 };
 }  // namespace Eigen::internal
