@@ -249,16 +249,16 @@ tabulate_stability() {
 draw_stability() {
   command -v gnuplot >/dev/null || return 0
   gnuplot <<PLOT
-set terminal pngcairo size 1200,520 enhanced
+set terminal pngcairo size 1200,560 enhanced
 set output "$output/stability.png"
 set datafile separator ","
 set logscale xy
 set format "10^{%L}"
-set xlabel "{/Symbol k} of the equilibrated matrix"
+set xlabel "{/Symbol k} of the equilibrated matrix" offset 0,0.6
 set ylabel "relative energy error"
 set xrange [0.8:1e15]
 set yrange [1e-17:1e3]
-set key right bottom Left reverse samplen 2
+set key below Left reverse samplen 2
 eps = 2.0**-52
 is_double(method) = !strstrt(method, "float") && !strstrt(method, "long_double")
 is_at(t) = strcol(9) eq "zero" && column(10) < 1.1 * t && column(10) > 0.9 * t && is_double(strcol(8))
