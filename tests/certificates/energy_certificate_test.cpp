@@ -231,15 +231,12 @@ TEST_CASE("relative errors: of a solution that is zero, of one about which nothi
   // An estimate just below the size at a point 1e13 solutions away: nothing is known.
   CHECK(std::isinf(slant::energy_error<double>{.bound = 1 - 1e-6, .size = 1}.relative()));
   CHECK(std::isinf(slant::energy_error<double>{}.relative()));
+  CHECK(slant::estimated_error<double>(true, 0, 1, 1e-17, 0).relative() == 0);
   CHECK(slant::energy_error<double>{.bound = 2, .size = 1}.sentence() ==
         "relative energy error inf (2 at a point of energy norm 1), estimated");
   CHECK(std::isnan(slant::error_bound_of_root(quiet_nan, 0.0)));
   CHECK(std::isnan(slant::error_bound_of_root(0.0, quiet_nan)));
   CHECK(slant::error_bound_of_root(infinity, infinity) == infinity);
-  CHECK(slant::error_bound_of_root(infinity, 0.0) == infinity);
-  CHECK(slant::error_bound_of_root(0.0, infinity) == infinity);
-  CHECK(slant::error_bound_of_root(0.0, 0.0) == 0);
-  CHECK(slant::error_bound_of_root(2.0, 0.0) == doctest::Approx(2));
   CHECK(slant::error_bound_of_root(0.0, 2.0) == doctest::Approx(2));
   CHECK(slant::error_bound_of_root(1e-200, 1e-150) >= 1e-150);
   CHECK(slant::error_bound_of_root(1e200, 1e150) >= 1e200);

@@ -118,6 +118,21 @@ TEST_CASE("loads of any size after each other") {
   agree(s, steps);
 }
 
+TEST_CASE("a floor lets a node go that the step down to it has held") {
+  VectorXd const k{{1.0625, 0.0625, 4.0625}};
+  sparse const K = MatrixXd(k.asDiagonal()).sparseView(), I = MatrixXd::Identity(3, 3).sparseView();
+  contact::data<double> const c{.N = I.topRows(1),
+                                .T = I.bottomRows(2),
+                                .f = Eigen::Vector3d(1, 0, -3),
+                                .d = VectorXd::Zero(1),
+                                .g = VectorXd::Zero(1)};
+  auto const layout = contact::interleaved_layout(MatrixXd(MatrixXd::Zero(3, 1)));
+  contact::primal_stepper stepper(K, c, {.tolerance = 1e-8, .layout = layout});
+  CHECK(stepper.advance({}).converged());
+  auto const& r = stepper.advance({.d = VectorXd::Ones(1)});
+  CHECK((r.converged() && (r.u - c.f.cwiseQuotient(k)).norm() <= 1e-8));
+}
+
 TEST_CASE("tangential positions in the first step") {
   scene const s(2, fem::brick_load::lift);
   agree(s, {{.w = VectorXd::Constant(s.data.T.rows(), 1e-4)}, {.f = VectorXd(2 * s.data.f)}});

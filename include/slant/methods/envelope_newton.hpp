@@ -416,8 +416,11 @@ class envelope_newton : public detail::preconditioned_program<QP, M, symmetric_n
     if (!note_inner(inner, s)) return;
     bool const asks = options_.energy_goal > scalar(0);
     if (asks && inner.iterations == 0 && s.energy_estimate <= options_.energy_goal) {
-      s.status = status::converged;
-      return;
+      s.energy_estimate = std::max<scalar>(s.energy_estimate, energy_of_release(s));
+      if (s.energy_estimate <= options_.energy_goal) {
+        s.status = status::converged;
+        return;
+      }
     }
     if (!shorten(s) || diverges(s)) {
       if (s.residual_norm <= s.rounding() && s.reduced_gradient_norm <= s.rounding()) {
@@ -429,6 +432,14 @@ class envelope_newton : public detail::preconditioned_program<QP, M, symmetric_n
     }
     s.forcing.record(s.residual_norm);
     if (s.status == status::running) advance(s);
+  }
+  /// What a step of the length ρ gains from blocks that the face holds and the gradient at x does
+  /// not: z is that of the point before.
+  static scalar energy_of_release(state_type& s) {
+    using std::sqrt;
+    s.face.keep(s.reduced, s.trial);
+    vectors::subtract(s.reduced, s.trial);
+    return s.unit * sqrt(s.step_length) * norm(s.trial);
   }
   /// With a γ that is too long E_γ may fall without end, and ‖F‖ grows with every step. Nothing less
   /// is a reason to shorten γ: where cells differ in size by 1e4, short ones take a hundred times

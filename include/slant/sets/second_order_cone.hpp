@@ -176,8 +176,9 @@ struct cone_coordinates {
     int const n_exponent = binary_exponent<S>(x(0)) + k;
     int const t_exponent = binary_exponent(t);
     exponent = has_axis && (all_zero(t) || n_exponent > t_exponent) ? n_exponent : t_exponent;
-    axis = double_word<S>(times_power_of_two(μ, -k)) *
-           double_word<S>(times_power_of_two<S>(x(0), k - exponent));
+    axis = has_axis ? double_word<S>(times_power_of_two(μ, -k)) *
+                          double_word<S>(times_power_of_two<S>(x(0), k - exponent))
+                    : double_word<S>(S(0));
     t = times_power_of_two<S, N - 1>(t, -exponent);
   }
 };
