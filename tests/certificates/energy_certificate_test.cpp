@@ -230,12 +230,10 @@ TEST_CASE("relative errors: of a solution that is zero, of one about which nothi
   CHECK(std::isinf(slant::energy_error<double>{.bound = 2, .size = 1}.relative()));
   // An estimate just below the size at a point 1e13 solutions away: nothing is known.
   CHECK(std::isinf(slant::energy_error<double>{.bound = 1 - 1e-6, .size = 1}.relative()));
-  CHECK(std::isinf(slant::energy_error<double>{}.relative()));
-  CHECK(slant::estimated_error<double>(true, 0, 1, 1e-17, 0).relative() == 0);
+  CHECK(std::isinf(slant::estimated_error<double>(true, 0, 1e20, 1, 0).relative()));
   CHECK(slant::energy_error<double>{.bound = 2, .size = 1}.sentence() ==
         "relative energy error inf (2 at a point of energy norm 1), estimated");
   CHECK(std::isnan(slant::error_bound_of_root(quiet_nan, 0.0)));
-  CHECK(std::isnan(slant::error_bound_of_root(0.0, quiet_nan)));
   CHECK(slant::error_bound_of_root(infinity, infinity) == infinity);
   CHECK(slant::error_bound_of_root(0.0, 2.0) == doctest::Approx(2));
   CHECK(slant::error_bound_of_root(1e-200, 1e-150) >= 1e-150);

@@ -88,6 +88,8 @@ TEST_CASE("rows next to each other are refused by name, not dropped; agreement i
   // A row of zeros has nothing to do with the size of other rows, nor have tiny equations.
   MatrixXd const zero{{1.0, 0.0}, {0.0, 0.0}}, twice{{1.0, 0.0}, {2.0, 0.0}};
   VectorXd const none = VectorXd::Zero(2);
+  MatrixXd const apart{{1, 0}, {0, 1}, {0, 1}};
+  CHECK(complaint(apart, VectorXd{{1e20, 0, 1}}, VectorXd::Zero(3)).find("e[2]: got 1") == 0);
   CHECK(complaint(zero, VectorXd{{1.0, 1e-8}}, none).find("e[1]: got 1e-08") == 0);
   CHECK(complaint(zero, VectorXd{{1.0, 1e-8}}, VectorXd{{0.0, 1e-7}}) == "nothing thrown");
   CHECK(complaint(twice, VectorXd{{1e-18, -2e-18}}, none).find("e[") == 0);

@@ -310,8 +310,7 @@ struct energy_error {
 /// The error of x from an estimate of it and what rounding the entries of x is worth in the energy
 /// norm, ε/2 √(Σ aᵢᵢ xᵢ²); load = √(Σ bᵢ²/aᵢᵢ). Unless A is `definite` x may be far out in its
 /// kernel, where xᵀA x and what is relative to it are rounding errors: nothing is known then. A
-/// point without energy that is no further from the solution than its rounding, or that of b, is
-/// the solution.
+/// point without energy of which no error is known but the rounding is the solution.
 template <class S>
 [[nodiscard]] energy_error<S> estimated_error(bool definite, S const& size, S const& load,
                                               S const& estimate, S const& rounding) {
@@ -319,8 +318,7 @@ template <class S>
   S const beside = size > S(0) ? size : load;
   bool const is_far = beside > S(0) && S(8) / sqrt(detail::epsilon<S>()) * rounding >= beside;
   if (!definite && is_far) return {.size = size};
-  S const least = std::max<S>(rounding, detail::epsilon<S>() * load);
-  if (size == S(0) && estimate <= least) return {.bound = S(0)};
+  if (size == S(0) && estimate == S(0)) return {.bound = S(0)};
   return {.bound = S(estimate + rounding), .size = size};
 }
 

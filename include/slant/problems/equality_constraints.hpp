@@ -239,8 +239,9 @@ class equality_constraints {
       }
       S const implied = combination.dot(unit_values_);
       S const terms = abs(unit_e[i]) + combination.cwiseAbs().dot(unit_values_.cwiseAbs());
-      // A row that has no part in it has one of rounding.
-      S const of_others = S(64) * detail::epsilon<S>() * combination.norm() * unit_values_.norm();
+      // Rows with unknowns in common may have a part of rounding; of the others it is exactly 0.
+      S const others = (combination.array() == S(0)).select(S(0), unit_values_.cwiseAbs()).sum();
+      S const of_others = S(64) * detail::epsilon<S>() * combination.norm() * others;
       S const allowed =
           rounding * terms + of_others + error[i] + combination.cwiseAbs().dot(kept_error);
       if (abs(implied - unit_e[i]) <= allowed) continue;
