@@ -537,6 +537,29 @@ TEST_CASE("what does not converge is factored, or says so where it may not be") 
   CHECK(steps == r.iterations);
 }
 
+TEST_CASE(
+    "multigrid that costs preferred, but takes far more cycles, ends at twice what factors cost") {
+  for (double const nu : {0.3, 0.4999}) {
+    auto const s =
+        scene_of<3>(fem::make_steel_brick({.k = 5, .load = fem::brick_load::press, .nu = nu}));
+    options o{.layout = s.layout};
+    o.costs.hierarchy = o.costs.cycles = 0;  // the fill is not counted before the budget asks
+    auto const r = contact::solve(s.K, s.data, o);
+    CHECK(r.converged());
+    CHECK((r.choice.route == solution_route::iterate) == (nu == 0.3));
+    if (nu == 0.3) continue;
+    CHECK(r.choice.reason.find("; factored after all: ") != std::string::npos);
+    CHECK(r.choice.reason.find("multigrid has cost twice what factors are estimated at") !=
+          std::string::npos);
+    CHECK(r.work.operator_applications < 2500);
+    VectorXd const F = VectorXd::Constant(s.data.nodes(), 0.3);
+    contact::certified_coulomb_options<double> own{.layout = s.layout, .costs = o.costs};
+    auto const law = contact::certified_coulomb(contact::friction_disc{}, s.K, s.data, F, own);
+    CHECK(law.converged());
+    CHECK(law.choice.reason.find("multigrid has cost twice") != std::string::npos);
+  }
+}
+
 TEST_CASE("what factors do not bring to an end is iterated after all") {
   scene const s = scene_of<3>(
       fem::make_steel_brick({.k = 3, .load = fem::brick_load::pull, .size = {3, 1, 0.1}}));

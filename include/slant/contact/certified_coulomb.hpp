@@ -388,8 +388,9 @@ template <class Friction, class S>
   route_choice choice =
       choose_route(K, outlook.refusal, needs_none ? solution_route::iterate : o.route, o.costs);
   if (needs_none) choice.reason = "iterated: factors need supports of every body";
+  detail::route_budget<S> const budget(K, choice, o.costs);
   auto const iterate = [&] {
-    return detail::iterated_coulomb(friction, K, c, F, outlook.floating, o);
+    return detail::iterated_coulomb(friction, K, c, F, outlook.floating, o, budget);
   };
   bool const can_follow = automatic && outlook.is_possible && o.tolerance > 0;
   // Multigrid takes K for definite where neither coordinates nor factors have told.

@@ -18,8 +18,8 @@
 //
 // Where the layout of the unknowns is known and K is large, K is not factored: the displacements
 // are solved for with multigrid (contact/parts/iterated_run.hpp). Which is faster is estimated
-// (contact/route.hpp); what gets nowhere one way is tried the other way. Bodies that supports
-// do not hold get springs that end where they began.
+// (contact/route.hpp); what gets nowhere one way, or costs far more than that, is tried the other
+// way. Bodies that supports do not hold get springs that end where they began.
 //
 // With factors, for bodies that supports do not hold, so that K is singular: their free motions are
 // computed and named (contact/free_motions), and where contact or friction holds them the same
@@ -269,7 +269,10 @@ template <class Friction, class S>
                          : detail::outlook_of_iteration(K, c, o);
   if (o.start && !asked && !outlook.refusal) outlook.refusal = "forces to start from are given";
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
-  auto const iterate = [&] { return detail::iterated_run(friction, K, c, outlook.floating, o); };
+  detail::route_budget<S> const budget(K, choice, o.costs);
+  auto const iterate = [&] {
+    return detail::iterated_run(friction, K, c, outlook.floating, o, budget);
+  };
   bool const automatic = o.route == solution_route::automatic;
   bool const can_follow = automatic && outlook.is_possible && o.tolerance > S(0) && o.max_steps > 0;
   // Multigrid takes K for definite where neither coordinates nor factors have told.

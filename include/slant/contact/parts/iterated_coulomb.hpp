@@ -135,7 +135,7 @@ template <class Friction, class S, class Certificate>
       how = state.status == status::breakdown ? status::breakdown
             : since >= patience               ? status::stalled
                                               : status::iteration_limit;
-      why = state.status == status::breakdown ? state.reason()
+      why = state.status == status::breakdown ? run.reason()
             : since < patience                ? no_more
             : !springs.empty() && !(springs.contraction() < S(0.5))
                 ? "contact hardly holds bodies without supports"
@@ -156,7 +156,7 @@ template <class Friction, class S, class Certificate>
       how = may_go_on                           ? status::iteration_limit
             : state.status == status::converged ? status::stalled
                                                 : state.status;
-      why = may_go_on ? no_more : state.reason();
+      why = may_go_on ? no_more : run.reason();
       break;
     }
     best = std::min<S>(best, error);
@@ -181,9 +181,11 @@ template <class Friction, class S, class Certificate>
 template <class Friction, class S>
 [[nodiscard]] certified_coulomb_result<Eigen::VectorX<S>> iterated_coulomb(
     Friction law, Eigen::SparseMatrix<S> const& K, data<S> const& c, Eigen::VectorX<S> const& F,
-    free_motions<S> const& floating, certified_coulomb_options<S> const& o) {
+    free_motions<S> const& floating, certified_coulomb_options<S> const& o,
+    route_budget<S> const& budget) {
   moving_springs<S> springs(K, floating, o.layout.dimension());
   primal_run<S> run(springs.held(), c, o.layout, o.multigrid, steps_for_problems(o.outer_steps));
+  run.set_budget(budget);
   energy_certificate frozen(run.qp(), run.levels());
   std::optional<alart_curnier_steps<S>> newton;
   return run_coulomb_to_certified<Friction, S>(law, run, newton, springs, frozen, c, {}, F, o);

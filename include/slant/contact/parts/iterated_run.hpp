@@ -167,6 +167,13 @@ class primal_run {
   /// is converged then.
   void step(S const& goal);
   void go_on() { state_.status = status::running; }
+  /// No step is left either where this is spent.
+  void set_budget(route_budget<S> const& budget) { budget_ = budget; }
+  /// What the status means.
+  [[nodiscard]] std::string reason() const {
+    bool const is_spent = state_.status == status::iteration_limit && budget_.is_spent();
+    return is_spent ? budget_.reason() : state_.reason();
+  }
   /// λ_ν of all contacts, as x and its gradient have it.
   void pressures(vector_type& λ) const {
     problem_.pressures(state_.x, state_.r, state_.step_length * state_.unit, λ);
@@ -209,6 +216,7 @@ class primal_run {
   slant::multigrid<S> M_;
   qp_type qp_;
   index most_;
+  route_budget<S> budget_{};
   state_type state_;
 };
 
@@ -238,7 +246,9 @@ auto primal_run<S>::begin(multigrid_options const& o, vector_type const& w) -> s
 
 template <class S>
 void primal_run<S>::step(S const& goal) {
-  if (state_.iteration < most_) {
+  bool const is_left =
+      state_.iteration < most_ && !budget_.is_spent(state_.work.operator_applications);
+  if (is_left) {
     method(goal).step(state_);
   } else if (state_.status == status::running) {
     state_.status = status::iteration_limit;
@@ -304,7 +314,7 @@ void run_held(primal_run<S>& run, Certificate& certificate, solve_options<S> con
     bool const goes_on = state.status == status::converged && idle < 2 &&
                          state.reduced_gradient_norm > S(0) && round < rounds;
     if (is_enough || !goes_on) {
-      conclude(result, is_enough, state.status, o.tolerance, "; " + state.reason());
+      conclude(result, is_enough, state.status, o.tolerance, "; " + run.reason());
       return;
     }
     best = std::min<S>(best, error);
@@ -468,7 +478,7 @@ void run_floating(primal_run<S>& run, moving_springs<S>& springs, Certificate& c
     slow = springs.contraction() < S(0.5) ? 0 : slow + 1;
     if (is_enough || ended || slow > patience || result.springs >= rounds) {
       conclude(result, is_enough, state.status, o.tolerance,
-               ended ? "; " + state.reason() : "; contact hardly holds bodies without supports");
+               ended ? "; " + run.reason() : "; contact hardly holds bodies without supports");
       return;
     }
     springs.move();
@@ -500,10 +510,11 @@ void run_to_certified(Friction law, primal_run<S>& run, moving_springs<S>& sprin
 template <class Friction, class S>
 [[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
                                        data<S> const& c, free_motions<S> const& floating,
-                                       solve_options<S> const& o) {
+                                       solve_options<S> const& o, route_budget<S> const& budget) {
   moving_springs<S> springs(K, floating, o.layout.dimension());
   solution<S> result;
   primal_run<S> run(springs.held(), c, o.layout, o.multigrid, o.max_steps);
+  run.set_budget(budget);
   result.factorization = run.levels().description();
   if (!springs.empty()) result.motions = floating;
   energy_certificate certificate(run.qp(), run.levels());
