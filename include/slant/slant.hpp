@@ -8,6 +8,8 @@
 //     <slant/operators/describe.hpp>             the tree of an expression
 //     <slant/factorizations/factorizations.hpp>  kernels, static condensation, generalised inverses
 //     <slant/iteration/iterates.hpp>             a run as a range (range-v3)
+//     <slant/sets/block_range.hpp>               the blocks of a point as a range (<ranges>)
+//     <slant/operators/range_sum.hpp>            sums of ranges of operators (<ranges>)
 //     <slant/operators/timed.hpp>                seconds spent in an operator (<chrono>)
 //     <slant/testing/…>                          law checks, for test suites (partly with doctest)
 //

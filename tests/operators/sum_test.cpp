@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <slant/operators/operators.hpp>
+#include <slant/operators/range_sum.hpp>
 #include <slant/testing/archetypes.hpp>
 #include <slant/testing/laws.hpp>
 
-#include <ranges>
 #include <support/testing.hpp>
 #include "operators/dense_oracle.hpp"
 

@@ -4,6 +4,7 @@
 #include <slant/krylov/cg.hpp>
 #include <slant/operators/counted.hpp>
 #include <slant/operators/describe.hpp>
+#include <slant/operators/range_sum.hpp>
 #include <slant/slanting/arithmetic.hpp>
 
 #include <support/testing.hpp>

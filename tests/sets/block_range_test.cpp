@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <slant/sets/sets.hpp>
+#include <slant/sets/block_range.hpp>
 
 #include <range/v3/algorithm/count_if.hpp>
 #include <range/v3/numeric/accumulate.hpp>
@@ -9,7 +10,6 @@
 #include <range/v3/view/take.hpp>
 #include <range/v3/view/transform.hpp>
 #include <range/v3/view/zip.hpp>
-#include <ranges>
 #include <support/testing.hpp>
 
 namespace block_range_test {

@@ -19,7 +19,7 @@ endforeach()
 
 set(waiting
     slant/slant.hpp slant/contact/contact.hpp slant/operators/describe.hpp slant/factorizations/factorizations.hpp slant/io/io.hpp
-    slant/iteration/iterates.hpp)
+    slant/iteration/iterates.hpp slant/operators/range_sum.hpp slant/sets/block_range.hpp)
 set(reached "")
 while(waiting)
   list(POP_FRONT waiting header)

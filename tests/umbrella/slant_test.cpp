@@ -9,8 +9,8 @@
 #if defined(RANGES_V3_VERSION_HPP) || defined(RANGES_V3_CONFIG_HPP)
 #error "<slant/slant.hpp> includes range-v3"
 #endif
-#if defined(_GLIBCXX_FILESYSTEM) || defined(_GLIBCXX_CHRONO)
-#error "<slant/slant.hpp> includes <filesystem> or <chrono>"
+#if defined(_GLIBCXX_FILESYSTEM) || defined(_GLIBCXX_CHRONO) || defined(_GLIBCXX_RANGES)
+#error "<slant/slant.hpp> includes <filesystem>, <chrono> or <ranges>"
 #endif
 #if defined(EIGEN_SVD_MODULE_H) || defined(EIGEN_EIGENVALUES_MODULE_H)
 #error "<slant/slant.hpp> includes decompositions of Eigen that it has no use for"

@@ -41,7 +41,7 @@ namespace detail {
 [[nodiscard]] inline std::vector<index> complement(index n, std::vector<index> const& numbers) {
   std::vector<index> rest;
   for (index i = 0; i < n; ++i) {
-    if (!std::ranges::binary_search(numbers, i)) rest.push_back(i);
+    if (!std::binary_search(numbers.begin(), numbers.end(), i)) rest.push_back(i);
   }
   return rest;
 }
@@ -64,7 +64,9 @@ template <class M>
   // Column j: b consecutive rows after each multiple of b, and those of the columns of its node.
   auto const fits = [&]<int b>(index j, std::integral_constant<int, b>) {
     auto const rows = detail::inner_indices(k, j);
-    if (j % b > 0) return std::ranges::equal(rows, detail::inner_indices(k, j - j % b));
+    if (auto const first = detail::inner_indices(k, j - j % b); j % b > 0) {
+      return std::equal(rows.begin(), rows.end(), first.begin(), first.end());
+    }
     bool good = rows.size() % b == 0;
     for (std::size_t e = 0; good && e < rows.size(); ++e) {
       good = rows[e] % b == index(e % b) && rows[e] == rows[e - e % b] + index(e % b);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// All operators, and formulas of them: B * Kinv * adjoint(B) + 1e-3 * identity(m). describe(A), which
-// prints the tree of one, has a header of its own.
+// All operators, and formulas of them: B * Kinv * adjoint(B) + 1e-3 * identity(m). Headers of their
+// own have describe(A), which prints the tree of one, and sum(range), which takes <ranges>.
 #pragma once
 
 // IWYU pragma: begin_exports
@@ -27,7 +27,6 @@
 #include <slant/operators/block_diagonal.hpp>
 #include <slant/operators/inverse.hpp>
 #include <slant/operators/kronecker.hpp>
-#include <slant/operators/range_sum.hpp>
 
 // Any of them: with other laws, counted, of one type:
 #include <slant/operators/any_operator.hpp>

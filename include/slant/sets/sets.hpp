@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// All convex sets.
+// All convex sets. The blocks of a point as a range, which takes <ranges>, have a header of their own.
 #pragma once
 
 // IWYU pragma: begin_exports
@@ -28,8 +28,7 @@
 #include <slant/sets/separable_sum.hpp>
 #include <slant/sets/support.hpp>
 
-// Blocks of a point, faces, and slanting operators of projections:
-#include <slant/sets/block_range.hpp>
+// Faces, and slanting operators of projections:
 #include <slant/sets/curved_face.hpp>
 #include <slant/sets/face.hpp>
 #include <slant/sets/slants.hpp>
