@@ -10,7 +10,6 @@
 namespace route_test {
 
 using slant::contact::choose_route;
-using slant::contact::route_costs;
 using slant::contact::solution_route;
 std::optional<std::string> const possible = std::nullopt;
 
@@ -24,16 +23,6 @@ TEST_CASE("small problems are factored, large ones iterated, and both ways the r
       choose_route(s.K, possible, solution_route::automatic, {.operation = 1});  // seconds
   CHECK(large.route == solution_route::iterate);
   CHECK(large.reason.starts_with("iterated: factors are estimated at more than "));
-}
-
-TEST_CASE("without supernodes iterating pays earlier") {
-  auto const s = fem::make_steel_brick({.k = 5});
-  auto const with = [&](route_costs const& costs) {
-    return choose_route(s.K, possible, solution_route::automatic, costs);
-  };
-  auto const plain = with(route_costs::without_cholmod()), blocked = with({});
-  CHECK(plain.factor_seconds > blocked.factor_seconds);
-  CHECK(plain.iterate_seconds == blocked.iterate_seconds);
 }
 
 TEST_CASE("the choice can be forced, but not to what is impossible") {
@@ -128,6 +117,23 @@ TEST_CASE("the other route follows where one gets nowhere, and the nearer result
   };
   CHECK(complaint(false).starts_with("first"));
   CHECK(complaint(true).starts_with("first"));
+}
+
+TEST_CASE("no memory for the factors that follow: iterated to the end, if that was cut short") {
+  auto const s = fem::make_steel_brick({.k = 1});
+  for (slant::index const cycles : {0, 1 << 30}) {
+    slant::contact::route_choice choice{.route = solution_route::iterate, .factor_seconds = 1e-9};
+    slant::contact::detail::route_budget<double> budget(s.K, choice, {});
+    CHECK(budget.is_spent(cycles) == (cycles > 0));
+    auto const after = slant::contact::detail::factored_after(
+        choice, budget, []() -> found { throw std::bad_alloc(); },
+        [&] {
+          return found{{budget.is_spent(cycles) ? 1.0 : 0.0}, {}};
+        });
+    REQUIRE(after.has_value() == (cycles > 0));
+    CHECK((!after || after->converged()));
+    CHECK(choice.route == solution_route::iterate);
+  }
 }
 
 }  // namespace route_test

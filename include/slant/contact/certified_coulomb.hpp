@@ -388,7 +388,7 @@ template <class Friction, class S>
   route_choice choice =
       choose_route(K, outlook.refusal, needs_none ? solution_route::iterate : o.route, o.costs);
   if (needs_none) choice.reason = "iterated: factors need supports of every body";
-  detail::route_budget<S> const budget(K, choice, o.costs);
+  detail::route_budget<S> budget(K, choice, o.costs);
   auto const iterate = [&] {
     return detail::iterated_coulomb(friction, K, c, F, outlook.floating, o, budget);
   };
@@ -402,7 +402,8 @@ template <class Friction, class S>
   };
   // What seems to float may be only slender.
   auto const factor_after = [&] {
-    return needs_none ? detail::unless_refused(factor) : detail::unless_no_memory(factor);
+    return needs_none ? detail::unless_refused(factor)
+                      : detail::factored_after(choice, budget, factor, iterate);
   };
   auto found = choice.route == solution_route::iterate
                    ? detail::by_routes(choice, automatic, iterate, factor_after)

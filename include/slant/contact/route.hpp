@@ -197,6 +197,7 @@ template <class First, class Second>
   std::string const way = iterates ? "; factored " : "; iterated ";
   std::string const before = choice.reason;
   choice.reason += way + "after all: " + why;
+  choice.route = iterates ? solution_route::factor : solution_route::iterate;
   auto other = second();
   if (!found && !other) std::rethrow_exception(thrown);
   bool const is_nearer =
@@ -209,10 +210,10 @@ template <class First, class Second>
     best.condition = std::max(best.condition, rest.condition);
   }
   if (!is_nearer) {
+    choice.route = iterates ? solution_route::iterate : solution_route::factor;
     choice.reason = before + way + "in vain" + (other ? ": " + other->reason : std::string());
     return *std::move(found);
   }
-  choice.route = iterates ? solution_route::factor : solution_route::iterate;
   return *std::move(other);
 }
 /// run(), nothing where that has no memory.
@@ -232,6 +233,19 @@ template <class Run>
   } catch (bad_input const&) {
     return std::nullopt;
   }
+}
+
+/// factor() where multigrid got nowhere; where that has no memory and only the budget of multigrid
+/// was spent, iterate() to the end.
+template <class S, class Factor, class Iterate>
+[[nodiscard]] auto factored_after(route_choice& choice, route_budget<S>& budget, Factor&& factor,
+                                  Iterate&& iterate) {
+  auto found = detail::unless_no_memory(factor);
+  if (found || !budget.is_spent()) return found;
+  budget = {};
+  choice.route = solution_route::iterate;
+  choice.reason += "; no memory, iterated to the end";
+  return decltype(found)(iterate());
 }
 
 }  // namespace detail

@@ -269,7 +269,7 @@ template <class Friction, class S>
                          : detail::outlook_of_iteration(K, c, o);
   if (o.start && !asked && !outlook.refusal) outlook.refusal = "forces to start from are given";
   route_choice choice = choose_route(K, outlook.refusal, o.route, o.costs);
-  detail::route_budget<S> const budget(K, choice, o.costs);
+  detail::route_budget<S> budget(K, choice, o.costs);
   auto const iterate = [&] {
     return detail::iterated_run(friction, K, c, outlook.floating, o, budget);
   };
@@ -291,8 +291,9 @@ template <class Friction, class S>
     return detail::spring_supports<run>(friction, K, c, o, std::move(motions)).run();
   };
   auto found = choice.route == solution_route::iterate
-                   ? detail::by_routes(choice, automatic, iterate,
-                                       [&] { return detail::unless_no_memory(factor); })
+                   ? detail::by_routes(
+                         choice, automatic, iterate,
+                         [&] { return detail::factored_after(choice, budget, factor, iterate); })
                    : detail::by_routes(choice, may_iterate, factor,
                                        [&] { return detail::unless_refused(iterate); });
   found.choice = std::move(choice);

@@ -182,7 +182,7 @@ template <class Friction, class S>
 [[nodiscard]] certified_coulomb_result<Eigen::VectorX<S>> iterated_coulomb(
     Friction law, Eigen::SparseMatrix<S> const& K, data<S> const& c, Eigen::VectorX<S> const& F,
     free_motions<S> const& floating, certified_coulomb_options<S> const& o,
-    route_budget<S> const& budget) {
+    route_budget<S>& budget) {
   moving_springs<S> springs(K, floating, o.layout.dimension());
   primal_run<S> run(springs.held(), c, o.layout, o.multigrid, steps_for_problems(o.outer_steps));
   run.set_budget(budget);

@@ -167,12 +167,13 @@ class primal_run {
   /// is converged then.
   void step(S const& goal);
   void go_on() { state_.status = status::running; }
-  /// No step is left either where this is spent.
-  void set_budget(route_budget<S> const& budget) { budget_ = budget; }
+  /// No step is left either where this is spent. Refers to it.
+  void set_budget(route_budget<S>& budget) { budget_ = &budget; }
   /// What the status means.
   [[nodiscard]] std::string reason() const {
-    bool const is_spent = state_.status == status::iteration_limit && budget_.is_spent();
-    return is_spent ? budget_.reason() : state_.reason();
+    bool const is_spent =
+        state_.status == status::iteration_limit && budget_ && budget_->is_spent();
+    return is_spent ? budget_->reason() : state_.reason();
   }
   /// λ_ν of all contacts, as x and its gradient have it.
   void pressures(vector_type& λ) const {
@@ -216,7 +217,7 @@ class primal_run {
   slant::multigrid<S> M_;
   qp_type qp_;
   index most_;
-  route_budget<S> budget_{};
+  route_budget<S>* budget_ = nullptr;
   state_type state_;
 };
 
@@ -246,8 +247,8 @@ auto primal_run<S>::begin(multigrid_options const& o, vector_type const& w) -> s
 
 template <class S>
 void primal_run<S>::step(S const& goal) {
-  bool const is_left =
-      state_.iteration < most_ && !budget_.is_spent(state_.work.operator_applications);
+  bool const is_left = state_.iteration < most_ &&
+                       !(budget_ && budget_->is_spent(state_.work.operator_applications));
   if (is_left) {
     method(goal).step(state_);
   } else if (state_.status == status::running) {
@@ -510,7 +511,7 @@ void run_to_certified(Friction law, primal_run<S>& run, moving_springs<S>& sprin
 template <class Friction, class S>
 [[nodiscard]] solution<S> iterated_run(Friction law, Eigen::SparseMatrix<S> const& K,
                                        data<S> const& c, free_motions<S> const& floating,
-                                       solve_options<S> const& o, route_budget<S> const& budget) {
+                                       solve_options<S> const& o, route_budget<S>& budget) {
   moving_springs<S> springs(K, floating, o.layout.dimension());
   solution<S> result;
   primal_run<S> run(springs.held(), c, o.layout, o.multigrid, o.max_steps);
