@@ -24,13 +24,6 @@ struct abstract {
   virtual ~abstract() = default;
   virtual void apply(int const&, int&) const = 0;
 };
-struct everything {
-  void apply_adjoint(auto const&, auto&) const {}
-  void solve(auto const&, auto&) const {}
-  void value(auto const&, auto&) const {}
-  auto slant(auto const& x) const { return x; }
-};
-
 TEST_CASE("a member is found by its name, whatever its kind") {
   CHECK(slant::has_apply_member<plain>);
   CHECK(slant::has_apply_member<overloaded>);
@@ -41,23 +34,11 @@ TEST_CASE("a member is found by its name, whatever its kind") {
 
 TEST_CASE("a misspelt member is not found") {
   CHECK_FALSE(slant::has_apply_member<misspelt>);
-  CHECK_FALSE(slant::has_apply_member<everything>);
 }
 
 TEST_CASE("what cannot be derived from is believed") {
   CHECK(slant::has_apply_member<sealed>);
   CHECK(slant::has_apply_member<int>);
-}
-
-TEST_CASE("each name is asked for itself") {
-  CHECK(slant::has_apply_adjoint_member<everything>);
-  CHECK(slant::has_solve_member<everything>);
-  CHECK(slant::has_value_member<everything>);
-  CHECK(slant::has_slant_member<everything>);
-  CHECK_FALSE(slant::has_apply_adjoint_member<plain>);
-  CHECK_FALSE(slant::has_solve_member<plain>);
-  CHECK_FALSE(slant::has_value_member<plain>);
-  CHECK_FALSE(slant::has_slant_member<plain>);
 }
 
 struct with_laws {

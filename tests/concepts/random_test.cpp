@@ -14,36 +14,19 @@ TEST_CASE("random_bits are the numbers of std::mt19937_64") {
   }
 }
 
-TEST_CASE("a coin falls on both sides equally often") {
-  slant::detail::random_bits bits(7);
-  int heads = 0, changes = 0;
-  bool last = false;
-  for (int i = 0; i < 10000; ++i) {
-    bool const now = bits.coin();
-    heads += now ? 1 : 0;
-    changes += now != last ? 1 : 0;
-    last = now;
-  }
-  CHECK(std::abs(heads - 5000) < 250);  // five standard deviations
-  CHECK(std::abs(changes - 5000) < 250);
-}
-
 TEST_CASE("normal_numbers have the moments and the quantiles of the normal distribution") {
   slant::detail::normal_numbers gaussian(20161);
   int const n = 100000;
-  double sum = 0, square = 0, fourth = 0;
-  int within_one = 0, within_two = 0;
+  double sum = 0, square = 0, fourth = 0, within_one = 0;
   for (int i = 0; i < n; ++i) {
     double const x = gaussian();
     sum += x;
     square += x * x;
     fourth += x * x * x * x;
     within_one += std::abs(x) < 1 ? 1 : 0;
-    within_two += std::abs(x) < 2 ? 1 : 0;
   }
   CHECK(sum / n == doctest::Approx(0).epsilon(0.016));
   CHECK(square / n == doctest::Approx(1).epsilon(0.025));
   CHECK(fourth / n == doctest::Approx(3).epsilon(0.05));
-  CHECK(within_one / double(n) == doctest::Approx(std::erf(std::sqrt(0.5))).epsilon(0.012));
-  CHECK(within_two / double(n) == doctest::Approx(std::erf(std::sqrt(2.0))).epsilon(0.005));
+  CHECK(within_one / n == doctest::Approx(std::erf(std::sqrt(0.5))).epsilon(0.012));
 }

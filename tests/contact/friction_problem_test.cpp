@@ -88,20 +88,6 @@ TEST_CASE("asymmetry: what rounding does to H M^-1 H' is allowed, more is not") 
                          ", expected a symmetric one, max |W - W^T| <= "));
 }
 
-TEST_CASE("coefficients by place, by slip, by direction") {
-  auto const place = contact::coefficients(VectorXd{{0.1, 0.2}});
-  CHECK(place.size() == 2);
-  CHECK(place(1, 5.0) == 0.2);
-  auto const slip =
-      contact::slip_dependent(3, [](slant::index i, double s) { return 0.1 * double(i) + s; });
-  CHECK(slip.size() == 3);
-  CHECK(slip(2, 0.5) == doctest::Approx(0.7));
-  auto const two = contact::orthotropic_coefficients(VectorXd{{0.1, 0.2}}, VectorXd{{0.3, 0.0}});
-  CHECK(two.size() == 2);
-  CHECK(two.first()(1) == 0.2);
-  CHECK(two.second()(0) == 0.3);
-}
-
 TEST_CASE("coefficients that depend on the slip are looked at whenever they are asked for") {
   auto const F = contact::slip_dependent(3, [](slant::index i, double s) {
     return i == 0 ? std::numeric_limits<double>::infinity() : i == 1 ? 0.25 - s : NAN;

@@ -136,6 +136,18 @@ TEST_CASE("no friction: all loads, sizes of a single level, no coordinates") {
   }
 }
 
+TEST_CASE("discs on nodes whose unknowns K does not couple, no coordinates") {
+  MatrixXd K = 2 * MatrixXd::Identity(15, 15);
+  K.diagonal(3).setConstant(-1);
+  K.diagonal(-3).setConstant(-1);
+  MatrixXd const I = MatrixXd::Identity(15, 15);
+  VectorXd f = I.col(0) + I.col(3) + I.col(6) + I.col(7) + I.col(9) - I.col(12);
+  f[8] = 0.75;
+  sparse const N = I({0, 3, 6, 9, 12}, Eigen::all).sparseView();
+  sparse const T = I({1, 2, 4, 5, 7, 8, 10, 11, 13, 14}, Eigen::all).sparseView();
+  agree({K.sparseView(), {N, T, f, VectorXd::Zero(5), VectorXd::Constant(5, 0.5)}, {}});
+}
+
 TEST_CASE("no friction: no contact, contact everywhere, contact of some nodes, an inclined floor") {
   scene const s = frictionless(brick(3, fem::brick_load::lift));
   Index const m = s.data.d.size();

@@ -219,6 +219,18 @@ TEST_CASE("a body that only contact holds: pressed on, and pulled off") {
   }
 }
 
+TEST_CASE("no gap closes, and lengths are short: b has no other unit") {
+  decomposed_brick const brick({2, 1, 1}, 1, fem::brick_load::press);
+  auto bodies = brick.bodies;
+  bodies.c *= 1e-25;
+  auto data = brick.data(false);
+  data.f *= 1e-25;
+  data.d.setConstant(infinity);
+  total_feti const problem(slant::contact::frictionless{}, bodies, data);
+  auto const b = problem.qp().b();
+  CHECK(b.cwiseAbs().maxCoeff() == b.head(bodies.c.size()).cwiseAbs().maxCoeff());
+}
+
 TEST_CASE("bad input") {
   decomposed_brick const brick({2, 1, 1}, 1, fem::brick_load::press);
   auto const data = brick.data(true);

@@ -281,21 +281,6 @@ TEST_CASE("verify: forces that are far larger than what they resist") {
   }
 }
 
-TEST_CASE("verify: another scalar") {
-  using S = float;
-  random_case const c(5, 3, 6);
-  friction_problem<S> const p{.W = c.p.W.cast<S>(), .q = c.p.q.cast<S>(), .mu = c.p.mu.cast<S>()};
-  auto const rounded = verify(p, Eigen::Matrix<S, Eigen::Dynamic, 1>(c.r.cast<S>()));
-  auto const plain = verify(c.p, c.r);
-  double const close = 1e3 * std::numeric_limits<S>::epsilon();
-  CHECK(double(rounded.natural_map) == doctest::Approx(plain.natural_map).epsilon(close));
-  CHECK(double(rounded.outside_cone.relative) ==
-        doctest::Approx(plain.outside_cone.relative).epsilon(close));
-  CHECK(double(rounded.complementarity.relative) ==
-        doctest::Approx(plain.complementarity.relative).epsilon(close));
-  CHECK(rounded.slip == plain.slip);
-}
-
 TEST_CASE("verify: bad input, NaN and nothing at all") {
   auto const p = test::plane_contact(1, 0, 1, -1, 0, 0.5);
   CHECK_THROWS_WITH_AS((void)verify(p, test::numbers({1})), "r: got 1, expected size 2",

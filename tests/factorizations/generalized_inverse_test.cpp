@@ -118,9 +118,12 @@ TEST_CASE("two bodies in one matrix, unknowns without stiffness, a regular matri
   units.insert(1, 1) = 1e-6;  // much softer
   sparse two = test::blown_up(units, MatrixXd(one));
   two.conservativeResize(55, 55);
-  generalized_inverse<double> const inverse(two);
-  CHECK(inverse.kernel().cols() == 3);  // two constants, and the last unknown
-  CHECK(first_law(two, inverse) <= 1e-12);
+  for (double const unit : {1.0, 1e-30, 1e20}) {
+    sparse const K = unit * two;
+    generalized_inverse<double> const inverse(K);
+    CHECK(inverse.kernel().cols() == 3);  // two constants, and the last unknown
+    CHECK(first_law(K, inverse) <= 1e-12);
+  }
 
   sparse const regular = test::grid_laplacian(3, 0.5);
   generalized_inverse<double> const ordinary(regular);
@@ -143,6 +146,14 @@ TEST_CASE("what is no kernel is refused with what was measured") {
   std::string const incomplete = complaint(box.K, box.R.leftCols(5));
   CHECK(test::contains(incomplete, "R: got 5 directions"));
   CHECK(test::contains(incomplete, "expected the whole kernel"));
+  // Where no pivot is zero up to rounding, for each part of the kernel of some sums of squares.
+  for (int seed = 1; seed <= 40; ++seed) {
+    MatrixXd const G = MatrixXd::NullaryExpr(12, 18, [seed](Eigen::Index i, Eigen::Index j) {
+      return std::sin(double(i * i + 7 * j * j + 31 * seed));
+    });
+    MatrixXd const R = Eigen::FullPivLU<MatrixXd>(G).kernel();
+    CHECK(complaint(MatrixXd(G.transpose() * G).sparseView(), R.leftCols(5)) != "nothing thrown");
+  }
   MatrixXd twice(box.R.rows(), 7);
   twice << box.R, box.R.col(2);
   CHECK(test::contains(complaint(box.K, twice), "columns of R: got rank 6"));

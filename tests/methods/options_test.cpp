@@ -29,13 +29,9 @@ TEST_CASE("KPRGP and QPC") {
       {{{}},
        {{.proportioning = 1e-9, .step_length = 1e-150, .step_factor = 1.99, .refresh = 0}},
        {{.proportioning = 0}, "proportioning: got 0, expected a finite number > 0"},
-       {{.proportioning = quiet_nan}, "proportioning: got nan, expected a finite number > 0"},
-       {{.proportioning = infinity}, "proportioning: got inf, expected a finite number > 0"},
        {{.face_accuracy = 1}, "face_accuracy: got 1, expected a number in [0, 1)"},
        {{.step_length = -1.0}, "step_length: got -1, expected a finite number > 0"},
-       {{.step_length = infinity}, "step_length: got inf, expected a finite number > 0"},
        {{.step_factor = 2}, "step_factor: got 2, expected a number in (0, 2)"},
-       {{.step_factor = 0}, "step_factor: got 0, expected a number in (0, 2)"},
        {{.refresh = -1}, "refresh: got -1, expected a number >= 0"},
        {{.patience = -1}, "patience: got -1, expected a number >= 0"},
        {{.spectrum = {.steps = 1}}, "steps: got 1, expected at least 2 Lanczos steps"}});
@@ -48,14 +44,12 @@ TEST_CASE("MSSN and IMSSN") {
       {{{.forcing = {.r_tol = 1}}, "r_tol: got 1, expected a number in (0, 1)"},
        {{.forcing = {.c_fact = 0}}, "c_fact: got 0"},
        {{.step_length = -1}, "step_length: got -1, expected a finite number > 0"},
-       {{.step_factor = quiet_nan}, "step_factor: got nan"},
        {{.max_inner = 0}, "max_inner: got 0, expected a number >= 1"}});
 }
 
 TEST_CASE("successive approximations") {
   check<slant::successive_options<double>>(
       {{{}},
-       {{.secant = false}},
        {{.forcing = {.η_max = 2}}, "η_max: got 2"},
        {{.inner_steps = 0}, "inner_steps: got 0, expected at least 1"},
        {{.patience = 0}, "patience: got 0, expected at least 1"}});
@@ -65,7 +59,6 @@ TEST_CASE("the symmetric Newton method") {
   check<slant::symmetric_newton_options<double>>(
       {{{}},
        {{.step_length = -1.0}, "step_length: got -1, expected a finite number > 0"},
-       {{.step_factor = quiet_nan}, "step_factor: got nan"},
        {{.inner_steps = 0}, "inner_steps: got 0"},
        {{.sufficient = 1.0}, "sufficient: got 1"}});
 }

@@ -530,4 +530,18 @@ TEST_CASE("solve(program with equations, tolerance): an unknown without stiffnes
   }
 }
 
+TEST_CASE("matrices by rows, and with long indices") {
+  MatrixXd const dense{{2, 0.5, 0}, {0.5, 2, 0.5}, {0, 0.5, 2}};
+  VectorXd const b{{-1, 0.5, 2}}, zero = VectorXd::Zero(3);
+  auto const check = [&](auto const& K) {
+    auto const A = slant::matrix<slant::self_adjoint, slant::positive_definite>(K);
+    auto const run = slant::solve(slant::ssnm{slant::separable_qp{A, b, slant::half_lines(3)}},
+                                  zero, slant::residual_below(1e-12) || slant::at_most(50));
+    auto const x = slant::solve(minimise(quadratic(A, b)).over(slant::half_lines(3)), 1e-10).x();
+    CHECK((run.x() - x).norm() <= 1e-9);
+  };
+  check(Eigen::SparseMatrix<double, Eigen::RowMajor>(dense.sparseView()));
+  check(Eigen::SparseMatrix<double, Eigen::ColMajor, long>(dense.sparseView()));
+}
+
 }  // namespace solve_program_test

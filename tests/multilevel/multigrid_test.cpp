@@ -233,6 +233,20 @@ TEST_CASE("polynomials are definite beside a body a million times as stiff") {
   }
 }
 
+TEST_CASE("on tangent planes in any direction the factors are self-adjoint") {
+  auto const s = fem::make_steel_brick({.k = 2});
+  auto const n = s.f.size();
+  auto const balls = slant::power(slant::ball<3>(0.5), int(n / 3));
+  multigrid const m(s.K);
+  slant::curved_face<double> face(balls);
+  for (int seed = 1; seed <= 20; ++seed) {
+    auto const entry = [seed](Eigen::Index i) { return std::sin(double(i * i + 31 * seed)); };
+    face.assign(balls, VectorXd(VectorXd::NullaryExpr(n, entry)), 1.0);
+    MatrixXd const M = dense_on_face(m, face, 0.5, n);
+    CHECK((M - M.transpose()).norm() <= 1e-5 * M.norm());
+  }
+}
+
 TEST_CASE("steps of conjugate gradients do not grow with the mesh, on any face") {
   int last = 0;
   for (int k = 4; k <= test::effort(12, 4); k += 4) {

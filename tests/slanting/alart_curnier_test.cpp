@@ -110,6 +110,9 @@ TEST_CASE("Alart–Curnier: bad input is named") {
   };
   CHECK(of(VectorXd{{0, quiet_nan, 0}}) == "q[1]: got nan, expected a finite number");
   CHECK(of(VectorXd::Zero(2)).starts_with("q: got 2, expected the components of all contacts, 3"));
+  MatrixXd const wide = MatrixXd::Identity(3, 6);
+  CHECK(SLANT_COMPLAINT(slant::alart_curnier<3>(wide, q, VectorXd{{0.5}}, VectorXd::Ones(3)))
+            .starts_with("W: got 3 x 6, expected 3 x 3"));
 }
 
 }  // namespace alart_curnier_test

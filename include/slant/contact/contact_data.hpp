@@ -137,17 +137,17 @@ void check_scene(M const& K, data<S> const& c) {
 /// b −= c for the normal multipliers, which are the first entries of b = B u⁰, u⁰ the displacement
 /// without contact. A node with an infinite gap, whose row of B is empty, gets a negative load
 /// instead: it keeps the multiplier at 0 and is small enough not to show in ‖b‖. Its size is that
-/// of the other entries, which are lengths too; without any, λ = 0 is the solution and no length is
-/// needed.
+/// of the entries of `all`, b or what it is a part of, which are lengths too; without any, λ = 0 is
+/// the solution and no length is needed.
 template <class S, class B>
-void subtract_gaps(Eigen::VectorX<S> const& d, B&& b) {
+void subtract_gaps(Eigen::VectorX<S> const& d, B&& b, Eigen::VectorX<S> const& all) {
   if (d.size() == 0) return;
   auto const closes = [&](index i) { return slant::detail::is_finite(d(i)); };
   for (index i = 0; i < d.size(); ++i) {
     if (closes(i)) b(i) -= d(i);
   }
   auto const m = static_cast<S>(static_cast<double>(d.size()));
-  S const size = b.cwiseAbs().maxCoeff() / m;
+  S const size = all.cwiseAbs().maxCoeff() / m;
   for (index i = 0; i < d.size(); ++i) {
     if (!closes(i)) b(i) = size > S(0) ? S(-size) : S(-1);
   }
@@ -187,30 +187,26 @@ template <class S>
 // far from 1 their squares are no numbers, and the problem is solved for rows U (N, T) and forces
 // λ' = U⁻¹λ: the same one, as U consists of powers of two.
 
-/// U: powers of two that make the largest entry of each row of (N, T) about 1, one for the tangents
-/// of a contact. Empty where none is beyond 2^±64.
+/// Powers of two near the largest entry of each row of B = [N; T] of m contacts, one for the tangents
+/// of a contact; 1 for an empty row.
+template <class S>
+[[nodiscard]] Eigen::VectorX<S> units_of_rows(Eigen::SparseMatrix<S> const& B, index m) {
+  index const per = m > 0 ? (B.rows() - m) / m : 0;
+  auto const of_contact = [&](index i) { return i < m ? i : m + (i - m) / per * per; };
+  Eigen::VectorX<S> U = Eigen::VectorX<S>::Zero(B.rows());
+  slant::detail::for_each_entry(B, [&](index i, index, S const& value) {
+    using std::abs;
+    U[of_contact(i)] = std::max<S>(U[of_contact(i)], abs(value));
+  });
+  for (index i = 0; i < U.size(); ++i) U[i] = of_contact(i) == i ? unit_near(U[i]) : U[i - 1];
+  return U;
+}
+/// U = 1/units_of_rows. Empty where none is beyond 2^±64.
 template <class S>
 [[nodiscard]] Eigen::VectorX<S> row_units(data<S> const& c) {
-  index const m = c.nodes(), per = c.tangents();
-  Eigen::VectorX<S> U = Eigen::VectorX<S>::Zero(m + c.T.rows());
-  auto const note = [&](index i, S const& value) {
-    using std::abs;
-    U[i] = std::max<S>(U[i], abs(value));
-  };
-  slant::detail::for_each_entry(c.N, [&](index i, index, S const& v) { note(i, v); });
-  slant::detail::for_each_entry(c.T,
-                                [&](index i, index, S const& v) { note(m + i / per * per, v); });
-  bool moderate = true;
-  for (index i = 0; i < U.size(); ++i) {
-    if (i > m && (i - m) % per != 0) {
-      U[i] = U[i - 1];
-      continue;
-    }
-    S const unit = unit_near(U[i]);
-    moderate = moderate && unit <= S(0x1p64) && unit >= S(0x1p-64);
-    U[i] = S(1) / unit;
-  }
-  return moderate ? Eigen::VectorX<S>() : U;
+  Eigen::VectorX<S> const U = units_of_rows(stacked(c.N, c.T), c.nodes());
+  bool const moderate = (U.array() <= S(0x1p64) && U.array() >= S(0x1p-64)).all();
+  return moderate ? Eigen::VectorX<S>() : Eigen::VectorX<S>(U.cwiseInverse());
 }
 /// x, its entries within the range of the numbers where those of `before` are.
 template <class S>

@@ -123,7 +123,7 @@ class dual {
     solve_once(f_, free_displacement_);
     check_range(free_displacement_);
     b_.noalias() = B_ * free_displacement_;
-    detail::subtract_gaps(d_, b_);
+    detail::subtract_gaps(d_, b_, b_);
   }
   dual(dual const&) = delete;
   dual& operator=(dual const&) = delete;
@@ -166,7 +166,7 @@ class dual {
     slant::detail::check_size("u", u.size(), f_.size());
     vector_type x = B_ * u;
     if (w_.size() > 0) x.tail(B_.rows() - d_.size()) -= w_;
-    detail::subtract_gaps(d_, x);
+    detail::subtract_gaps(d_, x, x);
     return -x;
   }
   /// λ = 0, the start that costs nothing.
@@ -202,7 +202,7 @@ class dual {
     if (step.f || step.d || step.w) {
       b.noalias() = B_ * (step.f ? displacement : free_displacement_);
       if (step.w || w_.size() > 0) b.tail(B_.rows() - d_.size()) -= step.w ? *step.w : w_;
-      detail::subtract_gaps(step.d ? *step.d : d_, b);
+      detail::subtract_gaps(step.d ? *step.d : d_, b, b);
       slant::detail::check_finite("b", b);
     }
     if (step.g) set_ = detail::feasible_set(law_, d_.size(), *step.g);

@@ -523,8 +523,16 @@ class primal {
   /// Multigrid for matrix(), from candidates of the near kernel of K (n × r, or without columns).
   [[nodiscard]] slant::multigrid<S> levels(matrix_type const& candidates,
                                            multigrid_options const& o) const {
-    if (!turns()) return slant::multigrid<S>(matrix(), candidates, o);
-    return slant::multigrid<S>(own_, mixed_unknowns<S>{*K_, local_.G}, candidates, o);
+    auto own = o;
+    // What slides in two directions has its unknowns in one node, also where K does not tell nodes.
+    bool const is_open = o.block_size == 0 && o.coordinates.size() == 0 && o.prolongations.empty();
+    bool const slides = local_.tangents.size() > local_.normal.size();
+    if (is_open && slides && candidates.cols() == 0 && matrix().rows() % 3 == 0 &&
+        detected_block_size(matrix()) == 1) {
+      own.block_size = 3;
+    }
+    if (!turns()) return slant::multigrid<S>(matrix(), candidates, own);
+    return slant::multigrid<S>(own_, mixed_unknowns<S>{*K_, local_.G}, candidates, own);
   }
 
   /// u = G⁻¹(v + s).

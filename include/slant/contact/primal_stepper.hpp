@@ -192,7 +192,7 @@ class primal_stepper {
   /// options `route`, `costs`, `scale`, `condensation` and `start`
   /// have no part. Throws bad_input for data that do not fit or options out of range, and where
   /// displacements cannot be solved for, for the reason that contact::solve would give for factors.
-  primal_stepper(Eigen::SparseMatrix<S> const& K, data<S> c, solve_options<S> options)
+  primal_stepper(Eigen::SparseMatrix<S> const& K, data<S> c, solve_options<S> options = {})
       : options_(checked(std::move(options), K, c)),
         steps_(K, std::move(c), options_, options_.max_steps) {
     if (!steps_.springs().empty()) report_.motions = steps_.floating();

@@ -118,7 +118,7 @@ class total_feti {
     slant::apply(inverse_, f_, u);
     b_.noalias() = B_ * u;
     b_.head(bodies.c.size()) -= bodies.c;
-    detail::subtract_gaps(c.d, b_.tail(b_.size() - bodies.c.size()));
+    detail::subtract_gaps(c.d, b_.tail(b_.size() - bodies.c.size()), b_);
   }
   total_feti(total_feti const&) = delete;
   total_feti& operator=(total_feti const&) = delete;

@@ -24,6 +24,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -111,14 +112,34 @@ class generalized_inverse {
   static factors_type factored(sparse_type const& K, std::vector<index> const& rows, index d) {
     sparse_type const E = detail::columns_of_identity<S>(K.rows(), rows);
     sparse_type const block = E.transpose() * K * E;
-    try {
-      return slant::factorize(block);
-    } catch (bad_input const& refusal) {
-      throw bad_input("R",
-                      detail::show(d) + " directions, and with as many rows fixed still " +
-                          std::string(refusal.what()),
-                      "the whole kernel of a positive semidefinite K");
+    auto factors = [&] {
+      try {
+        return slant::factorize(block);
+      } catch (bad_input const& refusal) {
+        refuse(d, refusal.what());
+      }
+    }();
+    if (leaves_free(factors, block)) refuse(d, "a motion that K does not resist");
+    return factors;
+  }
+  [[noreturn, gnu::cold]] static void refuse(index d, std::string const& why) {
+    throw bad_input("R", detail::show(d) + " directions, and with as many rows fixed still " + why,
+                    "the whole kernel of a positive semidefinite K");
+  }
+  /// Whether K_II is singular up to rounding though no pivot is: what two solves make of any vector.
+  static bool leaves_free(factors_type const& factors, sparse_type const& block) {
+    using vector_type = Eigen::VectorX<S>;
+    if (block.rows() == 0) return false;
+    detail::random_bits generator(2013);
+    vector_type v(block.rows()), x = v;
+    for (S& entry : v) entry = S(generator() >> 63U) - S(0.5);
+    auto w = slant::workspace(factors, v);
+    for (int k = 0; k < 2; ++k) {
+      detail::solve_with(factors, v, x, w);
+      v = x / x.cwiseAbs().maxCoeff();
     }
+    return (block * v).cwiseAbs().maxCoeff() <=
+           S(64) * std::numeric_limits<S>::epsilon() * detail::largest_row_sum(block);
   }
 
   dense_type kernel_;          // R

@@ -168,8 +168,10 @@ template <class S>
   index const n = K.rows();
   if (n == 0) return matrix_type(0, 0);
   vector_type scale = K.diagonal();
-  // An unknown without stiffness is a direction of the kernel; a negative one is refused below.
-  for (S& d : scale) d = d > S(0) ? S(S(1) / sqrt(d)) : S(1);
+  // An unknown without stiffness is a direction of the kernel, in the units of the others; a negative
+  // one is refused below.
+  S const stiffest = scale.maxCoeff() > S(0) ? scale.maxCoeff() : S(1);
+  for (S& d : scale) d = S(1) / sqrt(d > S(0) ? d : stiffest);
   Eigen::SparseMatrix<S> const scaled = scale.asDiagonal() * K * scale.asDiagonal();
   Eigen::SparseMatrix<S> shifted = scaled, unit(n, n);
   unit.setIdentity();

@@ -73,7 +73,7 @@ class multigrid {
   template <class M, class B>
   multigrid(Eigen::SparseMatrixBase<M> const& k, Eigen::MatrixBase<B> const& candidates,
             multigrid_options const& o = {})
-      : multigrid(sparse_view(k.derived()), nullptr, matrix_type(candidates.derived()), o) {}
+      : multigrid(viewed(k), nullptr, matrix_type(candidates.derived()), o) {}
   /// For unknowns v = G u that mix those of several nodes of K, as jumps and means of the two sides
   /// of a contact do: levels for k = G⁻ᵀK G⁻¹ of P = G P_K, where P_K is by aggregation of K with
   /// its candidates, or the first of options.prolongations. Throws bad_input as above, also where
@@ -81,7 +81,7 @@ class multigrid {
   template <class M, class B>
   multigrid(Eigen::SparseMatrixBase<M> const& k, mixed_unknowns<S> const& mixed,
             Eigen::MatrixBase<B> const& candidates, multigrid_options const& o = {})
-      : multigrid(sparse_view(k.derived()), &mixed, matrix_type(candidates.derived()), o) {}
+      : multigrid(viewed(k), &mixed, matrix_type(candidates.derived()), o) {}
   [[nodiscard]] index rows() const { return rows_; }
   [[nodiscard]] index cols() const { return rows_; }
   /// Whether the last level is factored; else it is smoothed.
@@ -209,6 +209,19 @@ class multigrid {
   void prepare_face(workspace_type& w) const;
   void follow_face(workspace_type& w) const;
 
+  /// k itself, or a copy where its indices are not int.
+  template <class M>
+  static decltype(auto) viewed(Eigen::SparseMatrixBase<M> const& k) {
+    if constexpr (std::same_as<typename M::StorageIndex, int>) {
+      return (k.derived());
+    } else {
+      typename M::PlainObject const whole = k.derived();
+      index const entries = whole.nonZeros();
+      detail::check_option("entries of K", entries, entries <= std::numeric_limits<int>::max(),
+                           "as many as an int counts");
+      return Eigen::SparseMatrix<S>(whole);
+    }
+  }
   /// Size and unit of K.
   void prepare(sparse_view const& K) {
     detail::require_square("K", K);

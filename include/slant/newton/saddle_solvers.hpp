@@ -106,7 +106,7 @@ class sparse_hessian_factors {
     });
     Eigen::SparseMatrix<S> room(a.rows(), a.cols());
     room.setFromTriplets(places.begin(), places.end());
-    a_ = a + room;
+    a_ = Eigen::SparseMatrix<S>(a) + room;
     k_ = a_;
   }
 

@@ -191,11 +191,12 @@ template <int N, detail::parameter_list M>
 
 /// r ↦ r − A(r − ρ (W r + q)), ρ a vector with one factor > 0 for each component, in units of 1/W,
 /// the same for the tangential components of a contact. W is referenced if it is an lvalue.
-/// @throws bad_input naming mu, rho, q or the size that is wrong.
+/// @throws bad_input naming W, mu, rho, q or the size that is wrong.
 template <int N, operand A, class Q, detail::parameter_list M, class R>
 [[nodiscard]] auto alart_curnier(A&& w, Q const& q, M const& mu, R const& rho) {
   auto projection = slant::alart_curnier_projection<N>(mu);
   index const n = projection.rows();
+  detail::require_size("W", w, n, n, "the components of all contacts");
   detail::check_size("rho", index(slant::local(rho).size()), n, "the components of all contacts,");
   detail::check_size("q", index(slant::local(q).size()), n, "the components of all contacts,");
   detail::check_finite("q", q);

@@ -53,7 +53,7 @@ namespace slant::contact {
 // A λ and b are far larger than u, and relative to ‖b‖ any forces are a solution. Here nothing is
 // larger than what loads and forces of contact leave over: ρ = ‖f − Bᵀλ‖/‖u‖ is the stiffness that
 // the body shows under p = f − Bᵀλ, at most λ_max(K), so that of rounding nothing is made but
-// rounding. It is no bound of the error: Coulomb's law minimises no energy. One product by B and
+// rounding. Forces and gaps are those of rows of N and T whose entries are about 1. It is no bound of the error: Coulomb's law minimises no energy. One product by B and
 // one by Bᵀ; no projection or method of the library takes part.
 
 /// What coulomb_check finds. NaN where λ or u holds one.
@@ -75,8 +75,9 @@ template <class V>
   V const forces = B.transpose() * λ;
   scalar const unit = std::max<scalar>(load.stableNorm(), forces.stableNorm());
   scalar const size = unit > scalar(0) ? unit : scalar(1), moved = u.stableNorm();
+  V const rows = units_of_rows(B, index(F.size())), wide = gaps.cwiseQuotient(rows);
   // u = 0 moves nothing: then any gap that is not there counts.
-  scalar const widest = gaps.size() > 0 ? scalar(gaps.cwiseAbs().maxCoeff()) : scalar(0);
+  scalar const widest = wide.size() > 0 ? scalar(wide.cwiseAbs().maxCoeff()) : scalar(0);
   scalar const ρ = moved > scalar(0)    ? (load - forces).stableNorm() / size / moved
                    : widest > scalar(0) ? scalar(1) / widest
                                         : scalar(1);
@@ -84,16 +85,17 @@ template <class V>
   index const m = F.size(), k = m > 0 ? index(λ.size()) / m - 1 : 0;
   V each(m), part(k + 1);
   for (index i = 0; i < m; ++i) {
-    scalar const pressure = λ(i) / size, pushed = pressure - ρ * gaps(i);
-    scalar const bound = F(i) * (pressure > scalar(0) ? pressure : scalar(0));
-    part(0) = pushed > scalar(0) ? ρ * gaps(i) : pressure;
-    auto const τ = λ.segment(m + k * i, k) / size;
-    part.tail(k) = τ - ρ * gaps.segment(m + k * i, k);
+    scalar const n = rows(i), t = k > 0 ? rows(m + k * i) : n;
+    scalar const pressure = λ(i) / size * n, pushed = pressure - ρ * wide(i);
+    scalar const bound = F(i) * (pressure > scalar(0) ? scalar(pressure / n * t) : scalar(0));
+    part(0) = pushed > scalar(0) ? ρ * wide(i) : pressure;
+    V const τ = λ.segment(m + k * i, k) / size * t;
+    part.tail(k) = τ - ρ * wide.segment(m + k * i, k);
     scalar const length = part.tail(k).stableNorm();
     scalar const kept = length > bound ? bound / length : scalar(1);
     part.tail(k) = τ - kept * part.tail(k);
     // Norms may pass over a NaN.
-    scalar const sum = pressure + gaps(i) + τ.sum() + gaps.segment(m + k * i, k).sum();
+    scalar const sum = pressure + wide(i) + τ.sum() + wide.segment(m + k * i, k).sum();
     each(i) = sum == sum ? scalar(part.stableNorm()) : sum;
     if (each(i) > v.largest || each(i) != each(i)) {
       v.largest = each(i);

@@ -161,9 +161,8 @@ template <class Friction, class S, class Certificate>
     }
     best = std::min<S>(best, error);
     if (!is_known && !springs.empty()) continue;
-    // Below the estimate at x, or the next step would stay there; springs move it anyway.
-    bool const stays = springs.empty() && state.energy_estimate > S(0);
-    if (stays) share = std::min<S>(share, state.energy_estimate / size());
+    // Below the estimate at x, or the next step would stay there, as where springs are at rest.
+    if (state.energy_estimate > S(0)) share = std::min<S>(share, state.energy_estimate / size());
     share *= std::clamp<S>(tolerance / error / S(2), S(1e-3), S(0.3));
   }
   index const steps = newton ? newton->steps() - newton_before : 0;

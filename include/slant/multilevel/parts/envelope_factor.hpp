@@ -46,7 +46,19 @@ namespace slant::detail {
 template <int N, class S>
 S invert_semidefinite(S* a, S const* least, S const* scale) {
   S lowest(1);
-  for (int c = 0; c < N; ++c) {
+  bool done[N] = {};
+  for (int k = 0; k < N; ++k) {
+    // Small pivots last: behind one what should vanish is rounding of the size of its inverse.
+    int c = -1;
+    S best(0);
+    for (int i = 0; i < N; ++i) {
+      S const ratio = scale[i] > S(0) ? a[i * N + i] / scale[i] : S(0);
+      if (!done[i] && (c < 0 || ratio > best)) {
+        c = i;
+        best = ratio;
+      }
+    }
+    done[c] = true;
     S const d = a[c * N + c];
     if (scale[c] > S(0) && d < lowest * scale[c]) lowest = d / scale[c];
     if (!(d > least[c])) {
