@@ -134,7 +134,7 @@ class route_budget {
   /// Whether so many products and cycles are too many. Counts the fill to its end where that was
   /// stopped too early to tell.
   [[nodiscard]] bool is_spent(index cycles) {
-    if (!K_) return false;
+    if (!K_ || is_spent_) return is_spent_;
     auto const entries = static_cast<double>(K_->nonZeros());
     double const seconds = (cost_.hierarchy + static_cast<double>(cycles) * cost_.cycle) * entries;
     if (seconds <= times * factor_seconds_) return false;

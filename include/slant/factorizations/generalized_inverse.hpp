@@ -139,7 +139,7 @@ class generalized_inverse {
       v = x / x.cwiseAbs().maxCoeff();
     }
     return (block * v).cwiseAbs().maxCoeff() <=
-           S(64) * std::numeric_limits<S>::epsilon() * detail::largest_row_sum(block);
+           S(4) * std::numeric_limits<S>::epsilon() * detail::largest_row_sum(block);
   }
 
   dense_type kernel_;          // R

@@ -53,8 +53,9 @@ namespace slant::contact {
 // A λ and b are far larger than u, and relative to ‖b‖ any forces are a solution. Here nothing is
 // larger than what loads and forces of contact leave over: ρ = ‖f − Bᵀλ‖/‖u‖ is the stiffness that
 // the body shows under p = f − Bᵀλ, at most λ_max(K), so that of rounding nothing is made but
-// rounding. Forces and gaps are those of rows of N and T whose entries are about 1. It is no bound of the error: Coulomb's law minimises no energy. One product by B and
-// one by Bᵀ; no projection or method of the library takes part.
+// rounding. Forces and gaps are those of rows of N and T whose entries are about 1. It is no bound of
+// the error: Coulomb's law minimises no energy. One product by B and one by Bᵀ; no projection or
+// method of the library takes part.
 
 /// What coulomb_check finds. NaN where λ or u holds one.
 template <class S>
