@@ -528,7 +528,7 @@ class primal {
     bool const is_open = o.block_size == 0 && o.coordinates.size() == 0 && o.prolongations.empty();
     bool const slides = local_.tangents.size() > local_.normal.size();
     if (is_open && slides && candidates.cols() == 0 && matrix().rows() % 3 == 0 &&
-        detected_block_size(matrix()) == 1) {
+        detected_block_size(*K_) == 1) {
       own.block_size = 3;
     }
     if (!turns()) return slant::multigrid<S>(matrix(), candidates, own);
