@@ -122,7 +122,8 @@ TEST_CASE("the other route follows where one gets nowhere, and the nearer result
 TEST_CASE("no memory for the factors that follow: iterated to the end, if that was cut short") {
   auto const s = fem::make_steel_brick({.k = 1});
   for (slant::index const cycles : {0, 1 << 30}) {
-    slant::contact::route_choice choice{.route = solution_route::iterate, .factor_seconds = 1e-9};
+    slant::contact::route_choice choice{
+        .route = solution_route::iterate, .factor_seconds = 1e-9, .reason = {}};
     slant::contact::detail::route_budget<double> budget(s.K, choice, {});
     CHECK(budget.is_spent(cycles) == (cycles > 0));
     auto const after = slant::contact::detail::factored_after(
