@@ -161,6 +161,23 @@ class route_budget {
   bool is_spent_ = false;
 };
 
+/// Whether a result ends the search.
+template <class Result>
+[[nodiscard]] bool is_verdict(Result const& of) {
+  return of.converged() || of.status == status::unbounded;
+}
+/// Of two results the nearer, with the work of both, is `first` then; whether that was the second.
+template <class Result>
+bool take_nearer(Result& first, Result& second) {
+  bool const is_second =
+      detail::is_verdict(second) || second.error.relative() < first.error.relative();
+  if (is_second) std::swap(first, second);
+  first.work += second.work;
+  if constexpr (requires { first.solves; }) first.solves += second.solves;
+  first.condition = std::max(first.condition, second.condition);
+  return is_second;
+}
+
 /// What first() finds on the route of the choice, or, if that gets nowhere and then `may_change`, what
 /// second() → std::optional finds on the other one, nothing if it is refused there: of two results
 /// the nearer, with the work of both. Nowhere is also a lack of memory, and without factors what
@@ -173,9 +190,6 @@ template <class First, class Second>
   std::optional<decltype(first())> found;
   std::exception_ptr thrown;
   std::string why;
-  auto const is_verdict = [](auto const& of) {
-    return of.converged() || of.status == status::unbounded;
-  };
   auto const passes = [&](char const* refusal) {
     thrown = std::current_exception();
     why = refusal;
@@ -187,7 +201,7 @@ template <class First, class Second>
     // Factors that come near end for reasons that multigrid has as well.
     bool const is_near =
         !iterates && error <= sqrt(std::numeric_limits<decltype(error + 0)>::epsilon());
-    if (!may_change || is_verdict(*found) || is_near) return *std::move(found);
+    if (!may_change || detail::is_verdict(*found) || is_near) return *std::move(found);
     why = found->reason;
   } catch (bad_input const& refusal) {
     if (!iterates || !passes(refusal.what())) throw;
@@ -200,21 +214,12 @@ template <class First, class Second>
   choice.route = iterates ? solution_route::factor : solution_route::iterate;
   auto other = second();
   if (!found && !other) std::rethrow_exception(thrown);
-  bool const is_nearer =
-      other && (!found || is_verdict(*other) || other->error.relative() < found->error.relative());
-  if (found && other) {
-    auto& best = is_nearer ? *other : *found;
-    auto const& rest = is_nearer ? *found : *other;
-    best.work += rest.work;
-    if constexpr (requires { best.solves; }) best.solves += rest.solves;
-    best.condition = std::max(best.condition, rest.condition);
-  }
-  if (!is_nearer) {
+  if (!found) return *std::move(other);
+  if (!other || !detail::take_nearer(*found, *other)) {
     choice.route = iterates ? solution_route::iterate : solution_route::factor;
     choice.reason = before + way + "in vain" + (other ? ": " + other->reason : std::string());
-    return *std::move(found);
   }
-  return *std::move(other);
+  return *std::move(found);
 }
 /// run(), nothing where that has no memory.
 template <class Run>
@@ -235,17 +240,20 @@ template <class Run>
   }
 }
 
-/// factor() where multigrid got nowhere; where that has no memory and only the budget of multigrid
-/// was spent, iterate() to the end.
+/// factor() where multigrid got nowhere; where that has no memory or gets nowhere either, and only
+/// the budget of multigrid was spent, iterate() to the end.
 template <class S, class Factor, class Iterate>
 [[nodiscard]] auto factored_after(route_choice& choice, route_budget<S>& budget, Factor&& factor,
                                   Iterate&& iterate) {
   auto found = detail::unless_no_memory(factor);
-  if (found || !budget.is_spent()) return found;
+  if ((found && detail::is_verdict(*found)) || !budget.is_spent()) return found;
   budget = {};
+  choice.reason +=
+      (found ? "; in vain: " + found->reason : "; no memory") + "; iterated to the end";
+  auto again = iterate();
+  if (found && !detail::take_nearer(*found, again)) return found;
   choice.route = solution_route::iterate;
-  choice.reason += "; no memory, iterated to the end";
-  return decltype(found)(iterate());
+  return found ? std::move(found) : decltype(found)(std::move(again));
 }
 
 }  // namespace detail

@@ -126,20 +126,25 @@ class generalized_inverse {
     throw bad_input("R", detail::show(d) + " directions, and with as many rows fixed still " + why,
                     "the whole kernel of a positive semidefinite K");
   }
-  /// Whether K_II is singular up to rounding though no pivot is: what two solves make of any vector.
+  /// Whether K_II, with a diagonal of 1, is singular up to rounding though no pivot is: what two
+  /// solves make of any vector.
   static bool leaves_free(factors_type const& factors, sparse_type const& block) {
     using vector_type = Eigen::VectorX<S>;
     if (block.rows() == 0) return false;
+    vector_type const scale = block.diagonal().cwiseSqrt().cwiseInverse();
+    sparse_type const scaled = scale.asDiagonal() * block * scale.asDiagonal();
     detail::random_bits generator(2013);
     vector_type v(block.rows()), x = v;
     for (S& entry : v) entry = S(generator() >> 63U) - S(0.5);
     auto w = slant::workspace(factors, v);
     for (int k = 0; k < 2; ++k) {
+      v = v.cwiseQuotient(scale);
       detail::solve_with(factors, v, x, w);
+      x = x.cwiseQuotient(scale);
       v = x / x.cwiseAbs().maxCoeff();
     }
-    return (block * v).cwiseAbs().maxCoeff() <=
-           S(4) * std::numeric_limits<S>::epsilon() * detail::largest_row_sum(block);
+    return (scaled * v).cwiseAbs().maxCoeff() <=
+           S(4) * std::numeric_limits<S>::epsilon() * detail::largest_row_sum(scaled);
   }
 
   dense_type kernel_;          // R
